@@ -1,0 +1,21 @@
+# The one place that says what is used and from which version on. All are Debian 12 packages; their
+# names are in scripts/packages.
+find_package(Threads REQUIRED)
+find_package(ZLIB 1.2 REQUIRED)
+find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)
+find_package(fmt 9.1 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(tinyxml2 9.0 REQUIRED)
+find_package(tinyobjloader REQUIRED)  # 2.0.0~rc10; its config names no plain number
+find_package(TinyGLTF 2.7 REQUIRED)
+find_path(EXPECTED_INCLUDE_DIR tl/expected.hpp REQUIRED)
+find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h REQUIRED)
+
+if(PSTRIPS_TESTS)
+  find_package(GTest 1.12 REQUIRED)
+  find_package(benchmark 1.7 REQUIRED)
+  find_package(rapidcheck REQUIRED)
+  find_package(meshoptimizer 0.18 REQUIRED)
+  find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/IO/MeshIO.hh REQUIRED)
+endif()

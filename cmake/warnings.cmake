@@ -1,0 +1,9 @@
+# For our own targets only; third-party headers come in as SYSTEM.
+function(pstrips_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion)
+endfunction()
+
+if(PSTRIPS_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/strips.h"
+
+namespace pstrip {
+
+/// Triangles to cover, as triples of wedges. An edge joins two triangles only where both of its
+/// wedges are the same, so strips never cross an attribute seam; nor do they cross groups.
+struct StripInput {
+  std::span<const Index> triangles;  ///< 3 n wedges < wedge_count, the three of a triangle distinct
+  std::span<const Index> group;      ///< one a triangle; empty: all in group 0
+  Index wedge_count = 0;
+};
+
+struct StripOptions {
+  std::uint32_t seed = 1;  ///< for the algorithms that choose at random; same seed, same strips
+};
+
+/// An index map without symbols: strips in ascending order of group, parted by kRestart (none at
+/// the end). Every triangle appears once with its winding; see for_each_triangle.
+using Strips = std::vector<Index>;
+
+using Stripifier = Strips (*)(const StripInput&, const StripOptions&);
+
+struct NamedStripifier {
+  std::string_view name;    ///< as on the command line
+  std::string_view source;  ///< key and section in spec/references.md
+  Stripifier run;
+};
+
+/// All algorithms, in the order in which help lists them.
+std::span<const NamedStripifier> stripifiers();
+
+/// nullptr when there is no such name.
+const NamedStripifier* find_stripifier(std::string_view name);
+
+}  // namespace pstrip

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/scene.h"
+#include "core/strips.h"
+
+namespace pstrip {
+
+enum class MapEncoding : std::uint8_t {
+  naive = 0,              ///< every entry is a wedge or a restart [Kim04 §3.2]
+  offset_difference = 1,  ///< entries may be symbols [Kim04 §3.3]
+};
+
+enum class Placement : std::uint8_t {
+  subset = 0,  ///< half-edge collapses: the parent stays where it is
+  free = 1,    ///< each vsplit moves its parent too [Skabek11 §3.3]
+};
+
+/// One refinement step. The new vertex takes the next free index, as do its new wedges.
+/// [Kim04 §3.2 eq. 2; spec/vsplit.md]
+struct Vsplit {
+  Index parent;   ///< vertex that is split, or the new vertex's own index: it appears on its own
+  Index wedges;   ///< how many new wedges the new vertex brings
+  Index carried;  ///< how many wedges it takes over from the parent
+  Index places;   ///< how many index-map entries are rewritten, over all new wedges
+  friend bool operator==(const Vsplit&, const Vsplit&) = default;
+};
+
+/// What the strips cannot say of the faces of the full-resolution mesh. Triangle t is the t-th
+/// triangle of the final index map (for_each_triangle). [spec/model.md §6]
+struct FaceTable {
+  /// Faces with corners of their own: polygons, lines, points and degenerate triangles, each with
+  /// the triangles of the map that it replaces (none for what strips cannot show).
+  std::vector<Index> first;          ///< first corner of each and one past the end; empty: none
+  std::vector<Index> corners;        ///< wedges
+  std::vector<Index> group;          ///< one each
+  std::vector<Index> replaced_first; ///< first replaced triangle of each and one past the end
+  std::vector<Index> replaced;       ///< triangles, each at most once
+  /// One element a face: triangles that nothing replaces in map order, then the faces above.
+  std::vector<Attribute> attributes;
+
+  Index count() const { return first.empty() ? 0 : static_cast<Index>(first.size() - 1); }
+  bool empty() const { return first.empty() && attributes.empty(); }
+  friend bool operator==(const FaceTable&, const FaceTable&) = default;
+};
+
+/// Where each decoded vertex, wedge and face stood in the original; permutations.
+struct OriginalOrder {
+  std::vector<Index> vertex, wedge, face;
+  std::vector<std::uint8_t> rotation;  ///< per decoded face: which of its corners was the first
+  friend bool operator==(const OriginalOrder&, const OriginalOrder&) = default;
+};
+
+/// A mesh as base and vertex splits. [spec/model.md]
+///
+/// `position` and `wedge_attributes` hold the elements of all vertices and wedges in the order in
+/// which they appear, base first, so that a prefix of the file fills a prefix of each array.
+struct ProgressiveMesh {
+  std::string name;
+  MapEncoding encoding = MapEncoding::naive;
+  Placement placement = Placement::subset;
+  /// No wedge lists at all: wedge i is vertex i, each vsplit brings one wedge and carries none.
+  bool single_wedges = true;
+  std::vector<Group> groups;
+  std::vector<Index> group_entries;  ///< index-map entries (restarts included) of each group, in order
+
+  Attribute position;
+  std::vector<Attribute> wedge_attributes;
+  std::vector<Attribute> face_attribute_formats;  ///< formats only; data is in `faces`
+
+  // Base.
+  Index base_vertices = 0;
+  Index base_wedges = 0;
+  std::vector<Index> base_wedge_vertex;  ///< base_wedges entries; empty when single_wedges
+  std::vector<Index> base_map;           ///< of full length from the start
+
+  // Vertex splits, and their lists one after the other.
+  std::vector<Vsplit> vsplits;
+  Bytes parent_position;             ///< with free placement: the parent's position after each split
+  std::vector<Index> wedge_places;   ///< per new wedge: how many entries it is written to
+  std::vector<Index> places;         ///< map offsets, ascending within a wedge
+  std::vector<Index> carried;        ///< wedges taken over
+
+  // At full resolution.
+  Index vertices = 0, wedges = 0, triangles = 0, strips = 0;
+  FaceTable faces;
+  OriginalOrder order;               ///< empty lists: the order was not kept
+  std::vector<std::byte> digest;     ///< SHA-256 of the decoded mesh, or empty
+
+  friend bool operator==(const ProgressiveMesh&, const ProgressiveMesh&) = default;
+};
+
+/// The unit of delivery: consecutive vsplits of one mesh, and what is reached after them.
+struct Packet {
+  Index mesh = 0;
+  Index first_vsplit = 0;
+  Index vsplits = 0;
+  Index vertices = 0, triangles = 0, strips = 0;  ///< of that mesh after the packet; strips with triangles
+  /// Estimated distance to the original after the packet, model units, not rising within a mesh,
+  /// 0 after its last packet.
+  float error = 0;
+  friend bool operator==(const Packet&, const Packet&) = default;
+};
+
+/// What stands in the file before the packets of a mesh; its level is level 0.
+using BaseLevel = Packet;  // with vsplits == 0
+
+/// A chunk that this build does not know but keeps.
+struct UnknownChunk {
+  std::array<char, 4> type{};
+  Bytes payload;
+  friend bool operator==(const UnknownChunk&, const UnknownChunk&) = default;
+};
+
+/// A whole file in memory. [spec/model.md §2]
+struct ProgressiveStrips {
+  std::string generator;  ///< who wrote the file
+  Scene scene;
+  std::vector<ProgressiveMesh> meshes;
+  std::vector<BaseLevel> bases;  ///< one a mesh, in mesh order
+  std::vector<Packet> packets;   ///< in file order; of each mesh in vsplit order
+  std::vector<UnknownChunk> unknown;
+  /// False when the file ended early: then the meshes hold what the whole packets brought.
+  bool complete = true;
+  friend bool operator==(const ProgressiveStrips&, const ProgressiveStrips&) = default;
+};
+
+}  // namespace pstrip

@@ -1,0 +1,108 @@
+#include "tests/support/meshes.h"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <random>
+
+namespace pstrip::test {
+namespace {
+
+template <class T>
+Bytes bytes_of(const std::vector<T>& values) {
+  const auto view = std::as_bytes(std::span(values));
+  return Bytes(view.begin(), view.end());
+}
+
+}  // namespace
+
+Mesh triangle_mesh(std::vector<float> positions, std::vector<Index> corners) {
+  Mesh mesh;
+  mesh.position.data = bytes_of(positions);
+  mesh.corners = std::move(corners);
+  mesh.groups.resize(1);
+  return mesh;
+}
+
+Mesh grid(Index side) {
+  std::vector<float> positions;
+  std::vector<Index> corners;
+  for (Index y = 0; y < side; ++y)
+    for (Index x = 0; x < side; ++x) {
+      const float fx = static_cast<float>(x), fy = static_cast<float>(y);
+      positions.insert(positions.end(), {fx, fy, 0.3f * std::sin(fx) * std::cos(fy)});
+      if (x + 1 == side || y + 1 == side) continue;
+      const Index a = y * side + x, b = a + 1, c = a + side, d = c + 1;
+      corners.insert(corners.end(), {a, b, c, b, d, c});
+    }
+  return triangle_mesh(std::move(positions), std::move(corners));
+}
+
+Mesh torus(Index u, Index v) {
+  std::vector<float> positions;
+  std::vector<Index> corners;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (Index i = 0; i < u; ++i)
+    for (Index j = 0; j < v; ++j) {
+      const double s = kTurn * i / u, t = kTurn * j / v, r = 2 + std::cos(t);
+      for (const double x : {r * std::cos(s), r * std::sin(s), std::sin(t)})
+        positions.push_back(static_cast<float>(x));
+      const Index a = i * v + j, b = (i + 1) % u * v + j;
+      const Index c = i * v + (j + 1) % v, d = (i + 1) % u * v + (j + 1) % v;
+      corners.insert(corners.end(), {a, b, c, b, d, c});
+    }
+  return triangle_mesh(std::move(positions), std::move(corners));
+}
+
+Mesh cube(bool uv) {
+  std::vector<float> positions;
+  for (int i = 0; i < 8; ++i)
+    for (const int bit : {1, 2, 4}) positions.push_back(i & bit ? 1.f : 0.f);
+  // The four corners of each side, counter-clockwise from outside.
+  constexpr Index kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                  {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  Mesh mesh = triangle_mesh(std::move(positions), {});
+  std::vector<float> normals, uvs;
+  for (Index side = 0; side < 6; ++side) {
+    Index w[4];
+    for (Index k = 0; k < 4; ++k) {
+      w[k] = uv ? 4 * side + k : kSides[side][k];
+      if (!uv) continue;
+      mesh.wedge_vertex.push_back(kSides[side][k]);
+      uvs.insert(uvs.end(), {k == 1 || k == 2 ? 1.f : 0.f, k >= 2 ? 1.f : 0.f});
+      for (Index axis = 0; axis < 3; ++axis)
+        normals.push_back(axis == side / 2 ? (side % 2 ? 1.f : -1.f) : 0.f);
+    }
+    mesh.corners.insert(mesh.corners.end(), {w[0], w[1], w[2], w[0], w[2], w[3]});
+  }
+  if (uv) {
+    mesh.wedge_attributes.push_back({"NORMAL", ComponentType::f32, 3, false, bytes_of(normals)});
+    mesh.wedge_attributes.push_back({"TEXCOORD_0", ComponentType::f32, 2, false, bytes_of(uvs)});
+  }
+  return mesh;
+}
+
+Mesh random_soup(std::uint32_t seed, Index vertices, Index faces) {
+  std::mt19937 random(seed);
+  const auto below = [&](Index n) { return static_cast<Index>(random() % n); };
+  std::vector<float> positions(std::size_t{3} * vertices);
+  for (float& x : positions) x = static_cast<float>(below(16));
+  Mesh mesh = triangle_mesh(std::move(positions), {});
+  std::vector<std::uint16_t> values;
+  for (Index v = 0; v < vertices; ++v)
+    for (Index n = 1 + below(3); n > 0; --n) {
+      mesh.wedge_vertex.push_back(v);
+      values.push_back(static_cast<std::uint16_t>(below(65536)));
+    }
+  mesh.wedge_attributes.push_back({"_VALUE", ComponentType::u16, 1, true, bytes_of(values)});
+  mesh.groups.resize(1 + below(3));
+  if (vertices == 0) return mesh;
+  for (Index f = 0; f < faces; ++f) {
+    for (int k = 0; k < 3; ++k) mesh.corners.push_back(below(mesh.wedge_count()));
+    mesh.face_group.push_back(below(static_cast<Index>(mesh.groups.size())));
+  }
+  canonicalize(mesh);
+  return mesh;
+}
+
+}  // namespace pstrip::test
