@@ -1,0 +1,129 @@
+#include "codecs/stripify/emit.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pstrip {
+namespace {
+
+// In a triangle entered over half-edge e, a strip leaves over the edge before e or the one after
+// it. A strip that needs no repeated entry leaves its second triangle over the edge before, the
+// third over the one after, and so on; each departure from that costs one entry and changes the
+// parity.
+class Emitter {
+ public:
+  Emitter(const StripInput& input, const DualGraph& graph, const Links& links)
+      : input_(input), graph_(graph), links_(links), done_(graph.triangle_count()) {
+    strips_.reserve(graph.triangle_count() + graph.triangle_count() / 2);
+  }
+
+  Strips run() {
+    for (const Index t : triangles_by_group())
+      if (!done_[t]) emit_strip_through(t);
+    if (!strips_.empty()) strips_.pop_back();  // the last restart
+    return std::move(strips_);
+  }
+
+ private:
+  std::vector<Index> triangles_by_group() const {
+    std::vector<Index> order(graph_.triangle_count());
+    std::iota(order.begin(), order.end(), Index{0});
+    if (!std::is_sorted(input_.group.begin(), input_.group.end()))
+      std::stable_sort(order.begin(), order.end(),
+                       [&](Index a, Index b) { return input_.group[a] < input_.group[b]; });
+    return order;
+  }
+
+  // The link of triangle t that is not `entry`, or kNone.
+  Index exit_of(Index t, Index entry) const {
+    for (Index h = 3 * t; h < 3 * t + 3; ++h)
+      if (links_[h] && h != entry) return h;
+    return kNone;
+  }
+
+  // The half-edges over which the strip leaves each triangle from `exit` on.
+  void follow(Index exit, std::vector<Index>& exits) const {
+    exits.clear();
+    while (exit != kNone) {
+      exits.push_back(exit);
+      const Index entry = graph_.opposite[exit];
+      exit = exit_of(triangle_of(entry), entry);
+    }
+  }
+
+  void emit_strip_through(Index t) {
+    Index exit = exit_of(t, kNone);
+    if (exit == kNone) {
+      done_[t] = true;
+      const auto corners = input_.triangles.subspan(std::size_t{3} * t, 3);
+      strips_.insert(strips_.end(), corners.begin(), corners.end());
+      strips_.push_back(kRestart);
+      return;
+    }
+    if (exit_of(t, exit) != kNone) {  // t is inside: go to one end first
+      follow(exit, exits_);
+      exit = graph_.opposite[exits_.back()];
+    }
+    follow(exit, exits_);
+    const bool backwards_is_cheaper = repeats_at_start(false) > repeats_at_start(true);
+    const bool same = repeats_at_start(false) == repeats_at_start(true);
+    const bool lower_at_end =
+        triangle_of(graph_.opposite[exits_.back()]) < triangle_of(exits_.front());
+    if (backwards_is_cheaper || (same && lower_at_end)) reverse();
+    write();
+  }
+
+  // 1 when the first turn goes the wrong way, seen from the front or from the back.
+  int repeats_at_start(bool from_back) const {
+    if (exits_.size() < 2) return 0;
+    const Index entry = from_back ? exits_.back() : graph_.opposite[exits_.front()];
+    const Index exit = from_back ? graph_.opposite[exits_[exits_.size() - 2]] : exits_[1];
+    return exit == previous_in_triangle(entry) ? 0 : 1;
+  }
+
+  void reverse() {
+    std::reverse(exits_.begin(), exits_.end());
+    for (Index& exit : exits_) exit = graph_.opposite[exit];
+  }
+
+  Index origin(Index h) const { return input_.triangles[h]; }
+
+  void write() {
+    const Index start = exits_.front();
+    done_[triangle_of(start)] = true;
+    // The last two entries, which are the edge the strip stands on.
+    Index older = origin(start), newer = origin(next_in_triangle(start));
+    strips_.insert(strips_.end(), {origin(previous_in_triangle(start)), older, newer});
+    bool even = true;
+    for (std::size_t i = 0; i < exits_.size(); ++i) {
+      const Index entry = graph_.opposite[exits_[i]];
+      done_[triangle_of(entry)] = true;
+      if (i + 1 < exits_.size() && (exits_[i + 1] == previous_in_triangle(entry)) != even) {
+        strips_.push_back(older);
+        std::swap(older, newer);
+        even = !even;
+      }
+      const Index apex = origin(previous_in_triangle(entry));
+      strips_.push_back(apex);
+      older = newer;
+      newer = apex;
+      even = !even;
+    }
+    strips_.push_back(kRestart);
+  }
+
+  const StripInput& input_;
+  const DualGraph& graph_;
+  const Links& links_;
+  std::vector<std::uint8_t> done_;
+  std::vector<Index> exits_;
+  Strips strips_;
+};
+
+}  // namespace
+
+Strips emit_strips(const StripInput& input, const DualGraph& graph, const Links& links) {
+  return Emitter(input, graph, links).run();
+}
+
+}  // namespace pstrip

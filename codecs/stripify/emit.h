@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "codecs/stripify/dual_graph.h"
+
+namespace pstrip {
+
+/// A stripification as one byte a half-edge: 1 where the strip steps over it. Both half-edges of
+/// an edge agree, no triangle has more than two, and there is no cycle: each connected run of
+/// links is one strip, so there are (triangles - links) strips.
+using Links = std::vector<std::uint8_t>;
+
+inline void set_link(const DualGraph& graph, Links& links, Index h, bool on) {
+  links[h] = links[graph.opposite[h]] = on;
+}
+
+/// Writes the strips out: in ascending order of group, then of their lowest triangle; from the end
+/// that costs fewer entries, from the one with the lower triangle when both cost the same. A turn
+/// that does not alternate repeats one entry.
+///
+/// cost  O(n), O(n log n) when the groups are not in ascending order
+Strips emit_strips(const StripInput& input, const DualGraph& graph, const Links& links);
+
+}  // namespace pstrip

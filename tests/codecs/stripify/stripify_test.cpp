@@ -1,0 +1,119 @@
+#include "codecs/stripify/stripify.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include "codecs/stripify/stats.h"
+#include "tests/support/meshes.h"
+#include "tests/support/strip_check.h"
+
+namespace pstrip {
+namespace {
+
+using test::find_strip_fault;
+using test::StripMesh;
+
+// Two triangles over three wedges, back to back: all three edges join them, only one may be used.
+StripMesh back_to_back() { return {{0, 1, 2, 0, 2, 1}, {}, 3}; }
+
+// `blades` triangles around the edge 0-1, every other one with the other direction.
+StripMesh book(Index blades) {
+  StripMesh mesh{{}, {}, 2 + blades};
+  for (Index i = 0; i < blades; ++i)
+    mesh.triangles.insert(mesh.triangles.end(), {i % 2, 1 - i % 2, 2 + i});
+  return mesh;
+}
+
+// The same triangle again and again.
+StripMesh pile(Index copies) {
+  StripMesh mesh{{}, {}, 3};
+  for (Index i = 0; i < copies; ++i) mesh.triangles.insert(mesh.triangles.end(), {0, 1, 2});
+  return mesh;
+}
+
+// Closed fan: the strip around the hub swaps at every second triangle.
+StripMesh fan(Index blades) {
+  StripMesh mesh{{}, {}, 1 + blades};
+  for (Index i = 0; i < blades; ++i)
+    mesh.triangles.insert(mesh.triangles.end(), {0, 1 + i, 1 + (i + 1) % blades});
+  return mesh;
+}
+
+struct NamedMesh {
+  const char* name;
+  StripMesh mesh;
+};
+
+std::vector<NamedMesh> meshes() {
+  const Mesh lone = test::triangle_mesh(std::vector<float>(3 * 9), {7, 3, 5});
+  return {
+      {"empty", {}},
+      {"isolated wedges only", {{}, {}, 5}},
+      {"one triangle among isolated wedges", test::strip_mesh(lone)},
+      {"back to back", back_to_back()},
+      {"book of 2", book(2)},
+      {"book of 7", book(7)},
+      {"pile", pile(5)},
+      {"fan", fan(9)},
+      {"cube", test::strip_mesh(test::cube(false))},
+      {"cube with seams", test::strip_mesh(test::cube(true))},
+      {"grid", test::strip_mesh(test::grid(12))},
+      {"torus", test::strip_mesh(test::torus(20, 50))},
+      {"thin torus", test::strip_mesh(test::torus(3, 3))},
+      {"soup", test::strip_mesh(test::random_soup(7, 30, 400))},
+      {"groups not in order", {{0, 1, 2, 2, 1, 3, 4, 5, 6, 2, 3, 4}, {2, 0, 2, 0}, 7}},
+  };
+}
+
+TEST(Stripifiers, CoverEveryMeshOnce) {
+  for (const NamedStripifier& stripifier : stripifiers())
+    for (const auto& [name, mesh] : meshes()) {
+      SCOPED_TRACE(testing::Message() << stripifier.name << " of " << name);
+      EXPECT_EQ(find_strip_fault(mesh.input(), stripifier.run(mesh.input(), {})), "");
+    }
+}
+
+RC_GTEST_PROP(Stripifiers, CoverRandomSoupsOnce, (std::uint32_t seed)) {
+  const auto vertices = *rc::gen::inRange<Index>(1, 40);
+  const auto faces = *rc::gen::inRange<Index>(0, 300);
+  const StripMesh mesh = test::strip_mesh(test::random_soup(seed, vertices, faces));
+  for (const NamedStripifier& stripifier : stripifiers()) {
+    const Strips strips = stripifier.run(mesh.input(), {});
+    RC_LOG() << stripifier.name;
+    RC_ASSERT(find_strip_fault(mesh.input(), strips) == "");
+    RC_ASSERT(stripifier.run(mesh.input(), {}) == strips);
+  }
+}
+
+TEST(Stripifiers, FindByName) {
+  for (const NamedStripifier& stripifier : stripifiers())
+    EXPECT_EQ(find_stripifier(stripifier.name), &stripifier);
+  EXPECT_EQ(find_stripifier("no such"), nullptr);
+}
+
+// Seams cut the cube into its six sides.
+TEST(Stripifiers, DoNotCrossSeams) {
+  const StripMesh mesh = test::strip_mesh(test::cube(true));
+  for (const NamedStripifier& stripifier : stripifiers())
+    EXPECT_EQ(strip_stats(stripifier.run(mesh.input(), {})).strips, 6u) << stripifier.name;
+}
+
+// [Vanecek05 table 8.9]: one strip and nineteen.
+TEST(Sgi, NearsTheThesisOnATorus) {
+  for (const Index segments : {50u, 100u, 200u}) {
+    const StripMesh mesh = test::strip_mesh(test::torus(segments, 20));
+    EXPECT_LE(strip_stats(find_stripifier("sgi-strips")->run(mesh.input(), {})).strips, 2u);
+    EXPECT_LE(strip_stats(find_stripifier("sgi-vertices")->run(mesh.input(), {})).strips, 21u);
+  }
+}
+
+// A hub of 300,000 triangles, and as many around one edge: what is not linear takes minutes.
+TEST(Stripifiers, StayFastAroundOneVertexAndOneEdge) {
+  for (const StripMesh& mesh : {fan(300'000), book(300'000), pile(300'000)})
+    for (const NamedStripifier& stripifier : stripifiers())
+      EXPECT_EQ(find_strip_fault(mesh.input(), stripifier.run(mesh.input(), {})), "");
+}
+
+}  // namespace
+}  // namespace pstrip
