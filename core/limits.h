@@ -7,13 +7,13 @@ namespace pstrip {
 /// What a reader accepts from untrusted input. Every reader and decoder takes one; a count that
 /// exceeds a limit is answered with ErrorCode::over_limit before anything is allocated for it.
 struct Limits {
-  std::uint64_t vertices = 1u << 28;            ///< per file, all meshes together
-  std::uint64_t wedges = 1u << 28;              ///< per file
-  std::uint64_t corners = 1u << 30;             ///< face corners or index-map entries, per file
-  std::uint64_t meshes = 1u << 20;              ///< meshes, materials, images and nodes, each
-  std::uint64_t string_bytes = 1u << 24;        ///< one name, comment or text value
-  std::uint64_t memory_bytes = 8ull << 30;      ///< what a reader may allocate in all
-  std::uint32_t xml_depth = 64;                 ///< nesting of elements (also of JSON)
+  std::uint64_t vertices = 1u << 28;        ///< per file, all meshes together
+  std::uint64_t wedges = 1u << 28;          ///< per file
+  std::uint64_t corners = 1u << 30;         ///< face corners or index-map entries, per file
+  std::uint64_t meshes = 1u << 20;          ///< meshes, materials, images and nodes, each
+  std::uint64_t string_bytes = 1u << 24;    ///< one name, comment or text value
+  std::uint64_t memory_bytes = 8ull << 30;  ///< what a reader may allocate in all
+  std::uint32_t xml_depth = 64;             ///< nesting of elements (also of JSON)
 };
 
 }  // namespace pstrip

@@ -17,27 +17,42 @@ double load(const std::byte* at) {
 
 double load(ComponentType type, const std::byte* at) {
   switch (type) {
-    case ComponentType::i8: return load<std::int8_t>(at);
-    case ComponentType::u8: return load<std::uint8_t>(at);
-    case ComponentType::i16: return load<std::int16_t>(at);
-    case ComponentType::u16: return load<std::uint16_t>(at);
-    case ComponentType::i32: return load<std::int32_t>(at);
-    case ComponentType::u32: return load<std::uint32_t>(at);
-    case ComponentType::f32: return load<float>(at);
-    case ComponentType::f64: return load<double>(at);
+    case ComponentType::i8:
+      return load<std::int8_t>(at);
+    case ComponentType::u8:
+      return load<std::uint8_t>(at);
+    case ComponentType::i16:
+      return load<std::int16_t>(at);
+    case ComponentType::u16:
+      return load<std::uint16_t>(at);
+    case ComponentType::i32:
+      return load<std::int32_t>(at);
+    case ComponentType::u32:
+      return load<std::uint32_t>(at);
+    case ComponentType::f32:
+      return load<float>(at);
+    case ComponentType::f64:
+      return load<double>(at);
   }
   return 0;
 }
 
 double normalized(ComponentType type, double value) {
   switch (type) {
-    case ComponentType::i8: return std::max(value / 127, -1.0);
-    case ComponentType::u8: return value / 255;
-    case ComponentType::i16: return std::max(value / 32767, -1.0);
-    case ComponentType::u16: return value / 65535;
-    case ComponentType::i32: return std::max(value / 2147483647, -1.0);
-    case ComponentType::u32: return value / 4294967295.0;
-    default: return value;
+    case ComponentType::i8:
+      return std::max(value / 127, -1.0);
+    case ComponentType::u8:
+      return value / 255;
+    case ComponentType::i16:
+      return std::max(value / 32767, -1.0);
+    case ComponentType::u16:
+      return value / 65535;
+    case ComponentType::i32:
+      return std::max(value / 2147483647, -1.0);
+    case ComponentType::u32:
+      return value / 4294967295.0;
+    default:
+      return value;
   }
 }
 
@@ -104,7 +119,8 @@ std::string find_inconsistency(const Mesh& mesh) {
     return "face bounds do not partition the corners";
   for (const Index w : mesh.corners)
     if (w >= wedges) return "corner names a wedge past the end";
-  if (wrong_size(mesh.face_attributes, mesh.face_count())) return "face attribute of the wrong length";
+  if (wrong_size(mesh.face_attributes, mesh.face_count()))
+    return "face attribute of the wrong length";
   if (!mesh.face_group.empty() && mesh.face_group.size() != mesh.face_count())
     return "face groups of the wrong length";
   for (const Index g : mesh.face_group)

@@ -76,10 +76,11 @@ struct Group {
 struct Mesh {
   std::string name;
   Attribute position{.semantic = "POSITION", .type = ComponentType::f32, .count = 3, .data = {}};
-  std::vector<Index> wedge_vertex;  ///< a vertex for each wedge; empty: wedge i is vertex i
+  std::vector<Index> wedge_vertex;          ///< a vertex for each wedge; empty: wedge i is vertex i
   std::vector<Attribute> wedge_attributes;  ///< each with one element a wedge
   std::vector<Index> corners;               ///< wedges, all faces one after the other
-  std::vector<Index> face_first;  ///< first corner of each face and one past the end; empty: triangles
+  std::vector<Index>
+      face_first;  ///< first corner of each face and one past the end; empty: triangles
   std::vector<Index> face_group;  ///< a group for each face; empty: all faces are in group 0
   std::vector<Attribute> face_attributes;  ///< each with one element a face
   std::vector<Group> groups;               ///< not empty

@@ -34,11 +34,11 @@ struct Vsplit {
 struct FaceTable {
   /// Faces with corners of their own: polygons, lines, points and degenerate triangles, each with
   /// the triangles of the map that it replaces (none for what strips cannot show).
-  std::vector<Index> first;          ///< first corner of each and one past the end; empty: none
-  std::vector<Index> corners;        ///< wedges
-  std::vector<Index> group;          ///< one each
-  std::vector<Index> replaced_first; ///< first replaced triangle of each and one past the end
-  std::vector<Index> replaced;       ///< triangles, each at most once
+  std::vector<Index> first;           ///< first corner of each and one past the end; empty: none
+  std::vector<Index> corners;         ///< wedges
+  std::vector<Index> group;           ///< one each
+  std::vector<Index> replaced_first;  ///< first replaced triangle of each and one past the end
+  std::vector<Index> replaced;        ///< triangles, each at most once
   /// One element a face: triangles that nothing replaces in map order, then the faces above.
   std::vector<Attribute> attributes;
 
@@ -65,7 +65,8 @@ struct ProgressiveMesh {
   /// No wedge lists at all: wedge i is vertex i, each vsplit brings one wedge and carries none.
   bool single_wedges = true;
   std::vector<Group> groups;
-  std::vector<Index> group_entries;  ///< index-map entries (restarts included) of each group, in order
+  std::vector<Index>
+      group_entries;  ///< index-map entries (restarts included) of each group, in order
 
   Attribute position;
   std::vector<Attribute> wedge_attributes;
@@ -79,16 +80,16 @@ struct ProgressiveMesh {
 
   // Vertex splits, and their lists one after the other.
   std::vector<Vsplit> vsplits;
-  Bytes parent_position;             ///< with free placement: the parent's position after each split
-  std::vector<Index> wedge_places;   ///< per new wedge: how many entries it is written to
-  std::vector<Index> places;         ///< map offsets, ascending within a wedge
-  std::vector<Index> carried;        ///< wedges taken over
+  Bytes parent_position;            ///< with free placement: the parent's position after each split
+  std::vector<Index> wedge_places;  ///< per new wedge: how many entries it is written to
+  std::vector<Index> places;        ///< map offsets, ascending within a wedge
+  std::vector<Index> carried;       ///< wedges taken over
 
   // At full resolution.
   Index vertices = 0, wedges = 0, triangles = 0, strips = 0;
   FaceTable faces;
-  OriginalOrder order;               ///< empty lists: the order was not kept
-  std::vector<std::byte> digest;     ///< SHA-256 of the decoded mesh, or empty
+  OriginalOrder order;            ///< empty lists: the order was not kept
+  std::vector<std::byte> digest;  ///< SHA-256 of the decoded mesh, or empty
 
   friend bool operator==(const ProgressiveMesh&, const ProgressiveMesh&) = default;
 };
@@ -98,7 +99,8 @@ struct Packet {
   Index mesh = 0;
   Index first_vsplit = 0;
   Index vsplits = 0;
-  Index vertices = 0, triangles = 0, strips = 0;  ///< of that mesh after the packet; strips with triangles
+  Index vertices = 0, triangles = 0,
+        strips = 0;  ///< of that mesh after the packet; strips with triangles
   /// Estimated distance to the original after the packet, model units, not rising within a mesh,
   /// 0 after its last packet.
   float error = 0;

@@ -24,9 +24,9 @@ inline constexpr std::uint64_t kNoOffset = ~std::uint64_t{0};
 /// Why something from outside was refused, and where.
 struct Error {
   ErrorCode code = ErrorCode::corrupt;
-  std::string message;                ///< a fixed phrase in lower case, no trailing full stop
-  std::uint64_t offset = kNoOffset;   ///< byte offset into the input, where one is known
-  std::string path = {};              ///< line ("line 12"), element path, JSON pointer or file name
+  std::string message;               ///< a fixed phrase in lower case, no trailing full stop
+  std::uint64_t offset = kNoOffset;  ///< byte offset into the input, where one is known
+  std::string path = {};             ///< line ("line 12"), element path, JSON pointer or file name
   friend bool operator==(const Error&, const Error&) = default;
 };
 

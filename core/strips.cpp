@@ -21,7 +21,8 @@ Result<std::vector<Index>> resolve(std::span<const Index> map) {
       at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + d);
     }
     if (chain.empty()) continue;
-    if (out[at] == kRestart) return fail(ErrorCode::corrupt, "symbol points outside its strip", chain.back());
+    if (out[at] == kRestart)
+      return fail(ErrorCode::corrupt, "symbol points outside its strip", chain.back());
     for (const std::size_t waiting : chain) out[waiting] = out[at];
   }
   return out;

@@ -27,7 +27,8 @@ constexpr int distance_of(Index symbol) {
 }
 /// Precondition: distance is -2, -1, 1 or 2.
 constexpr Index symbol_of(int distance) {
-  return static_cast<Index>(static_cast<int>(kSameAsMinus2) + 2 + (distance < 0 ? distance : distance - 1));
+  return static_cast<Index>(static_cast<int>(kSameAsMinus2) + 2 +
+                            (distance < 0 ? distance : distance - 1));
 }
 
 /// Replaces every symbol by the wedge its chain ends at; restarts stay.

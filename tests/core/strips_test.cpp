@@ -14,8 +14,11 @@ using Triangles = std::vector<std::array<Index, 3>>;
 
 Triangles triangles_of(const Map& map) {
   Triangles out;
-  for_each_triangle(map, [](Index w) { return w; },
-                    [&](Index a, Index b, Index c) { out.push_back({a, b, c}); });
+  for_each_triangle(
+      map, [](Index w) { return w; },
+      [&](Index a, Index b, Index c) {
+        out.push_back({a, b, c});
+      });
   return out;
 }
 
@@ -34,16 +37,15 @@ TEST(Resolve, FollowsChainsBothWays) {
             (Map{4, 4, 5, 4, kR, 6, 6, 6, 6}));
 }
 
-struct BadMap { const char* name; Map map; };
+struct BadMap {
+  const char* name;
+  Map map;
+};
 const BadMap kBadMaps[] = {
-    {"before the start", {kM1, 1}},
-    {"past the end", {1, kP1}},
-    {"two past the end", {1, kP2, 1}},
-    {"onto a restart", {1, kP1, kR, 2}},
-    {"over a restart", {1, kP2, kR, 2}},
-    {"back over a restart", {1, kR, kM2}},
-    {"a cycle of two", {kP1, kM1}},
-    {"a cycle of three", {1, kP2, kM1, kM1}},
+    {"before the start", {kM1, 1}},      {"past the end", {1, kP1}},
+    {"two past the end", {1, kP2, 1}},   {"onto a restart", {1, kP1, kR, 2}},
+    {"over a restart", {1, kP2, kR, 2}}, {"back over a restart", {1, kR, kM2}},
+    {"a cycle of two", {kP1, kM1}},      {"a cycle of three", {1, kP2, kM1, kM1}},
 };
 
 TEST(Resolve, RefusesChainsWithoutAWedgeInTheStrip) {

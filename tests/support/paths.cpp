@@ -4,7 +4,9 @@
 
 namespace pstrip::test {
 
-std::filesystem::path data_dir() { return std::filesystem::path(PSTRIPS_SOURCE_DIR) / "tests/data"; }
+std::filesystem::path data_dir() {
+  return std::filesystem::path(PSTRIPS_SOURCE_DIR) / "tests/data";
+}
 
 std::optional<std::filesystem::path> models_dir() {
   const char* named = std::getenv("PSTRIPS_MODELS");
