@@ -1,0 +1,153 @@
+#include "codecs/triangulate/triangulate.h"
+
+#include <array>
+#include <cmath>
+
+namespace pstrip {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+constexpr std::size_t kMaxEarClipping = 256;  // ear clipping is cubic at worst
+
+class PolygonCutter {
+ public:
+  PolygonCutter(const Mesh& mesh, Triangulation& out)
+      : mesh_(mesh), positions_(positions_as_double(mesh)), out_(out) {}
+
+  void cut(Index face) {
+    face_ = face;
+    const std::span<const Index> loop = mesh_.face(face);
+    if (loop.size() < 3) return;
+    if (loop.size() == 3) return add(loop[0], loop[1], loop[2]);
+    loop_.assign(loop.begin(), loop.end());
+    normal_ = newell();
+    if (loop_.size() == 4)
+      cut_quad();
+    else if (loop_.size() > kMaxEarClipping || is_convex())
+      zigzag();
+    else
+      clip_ears();
+  }
+
+ private:
+  Point at(Index wedge) const {
+    const double* p = positions_.data() + std::size_t{3} * mesh_.vertex_of(wedge);
+    return {p[0], p[1], p[2]};
+  }
+  void add(Index a, Index b, Index c) {
+    const Index va = mesh_.vertex_of(a), vb = mesh_.vertex_of(b), vc = mesh_.vertex_of(c);
+    if (va == vb || vb == vc || va == vc) return;
+    out_.corners.insert(out_.corners.end(), {a, b, c});
+    out_.face.push_back(face_);
+  }
+  // Newell's normal: twice the vector area, robust for bent and concave loops.
+  Point newell() const {
+    Point n{0, 0, 0};
+    const Point origin = at(loop_[0]);
+    for (std::size_t i = 1; i + 1 < loop_.size(); ++i) {
+      const Point c = cross(at(loop_[i]) - origin, at(loop_[i + 1]) - origin);
+      for (std::size_t k = 0; k < 3; ++k) n[k] += c[k];
+    }
+    return n;
+  }
+  /// Signed area of a triangle seen along the normal.
+  double area(Index a, Index b, Index c) const {
+    return dot(normal_, cross(at(b) - at(a), at(c) - at(a)));
+  }
+  bool is_convex() const {
+    const std::size_t n = loop_.size();
+    for (std::size_t i = 0; i < n; ++i)
+      if (!(area(loop_[i], loop_[(i + 1) % n], loop_[(i + 2) % n]) > 0)) return false;
+    return true;
+  }
+  void zigzag() {
+    std::size_t low = 0, high = loop_.size() - 1;
+    for (bool from_low = true; high - low >= 2; from_low = !from_low) {
+      if (from_low) {
+        add(loop_[low], loop_[low + 1], loop_[high]);
+        ++low;
+      } else {
+        add(loop_[low], loop_[high - 1], loop_[high]);
+        --high;
+      }
+    }
+  }
+  void cut_quad() {
+    const auto [a, b, c, d] = std::array{loop_[0], loop_[1], loop_[2], loop_[3]};
+    const double across_ac = std::min(area(a, b, c), area(a, c, d));
+    const double across_bd = std::min(area(b, c, d), area(b, d, a));
+    const Point ac = at(c) - at(a), bd = at(d) - at(b);
+    // Both ways are fine for a convex quad; the shorter diagonal then.
+    const bool both = across_ac > 0 && across_bd > 0;
+    if (both ? dot(ac, ac) <= dot(bd, bd) : !(across_bd > across_ac)) {
+      add(a, b, c);
+      add(a, c, d);
+    } else {
+      add(b, c, d);
+      add(b, d, a);
+    }
+  }
+  bool is_ear(std::size_t i) const {
+    const std::size_t n = loop_.size();
+    const Index a = loop_[(i + n - 1) % n], b = loop_[i], c = loop_[(i + 1) % n];
+    if (!(area(a, b, c) > 0)) return false;
+    for (const Index w : loop_) {
+      if (w == a || w == b || w == c) continue;
+      if (area(a, b, w) >= 0 && area(b, c, w) >= 0 && area(c, a, w) >= 0) return false;
+    }
+    return true;
+  }
+  void clip_ears() {
+    while (loop_.size() > 3) {
+      const std::size_t n = loop_.size();
+      std::size_t ear = 0;
+      while (ear < n && !is_ear(ear)) ++ear;
+      if (ear == n) ear = 0;  // self-intersecting or flat: any corner will do
+      add(loop_[(ear + n - 1) % n], loop_[ear], loop_[(ear + 1) % n]);
+      loop_.erase(loop_.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    add(loop_[0], loop_[1], loop_[2]);
+  }
+
+  const Mesh& mesh_;
+  std::vector<double> positions_;
+  Triangulation& out_;
+  Index face_ = 0;
+  std::vector<Index> loop_;
+  Point normal_{};
+};
+
+Triangulation triangles_only(const Mesh& mesh) {
+  Triangulation out;
+  out.corners.reserve(mesh.corners.size());
+  out.face.reserve(mesh.face_count());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::span<const Index> t = mesh.face(f);
+    const Index a = mesh.vertex_of(t[0]), b = mesh.vertex_of(t[1]), c = mesh.vertex_of(t[2]);
+    if (a == b || b == c || a == c || mesh.groups[mesh.group_of(f)].kind != FaceKind::polygons)
+      continue;
+    out.corners.insert(out.corners.end(), t.begin(), t.end());
+    out.face.push_back(f);
+  }
+  return out;
+}
+
+}  // namespace
+
+Triangulation triangulate(const Mesh& mesh) {
+  if (mesh.face_first.empty()) return triangles_only(mesh);
+  Triangulation out;
+  PolygonCutter cutter(mesh, out);
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    if (mesh.groups[mesh.group_of(f)].kind == FaceKind::polygons) cutter.cut(f);
+  return out;
+}
+
+}  // namespace pstrip

@@ -1,0 +1,140 @@
+#include "codecs/vsplit/faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <numeric>
+
+namespace pstrip {
+namespace {
+
+using Triple = std::array<Index, 3>;
+
+// Finds the source triangle of each triangle of the strips. Equal triangles of one group are
+// handed out in source order.
+class TriangleFinder {
+ public:
+  TriangleFinder(const Mesh& source, const Triangulation& triangles)
+      : first_(std::size_t{source.wedge_count()} + 1, 0),
+        keys_(triangles.face.size()),
+        handed_out_(triangles.face.size(), 0) {
+    std::vector<Key> unsorted(keys_.size());
+    for (Index t = 0; t < unsorted.size(); ++t) {
+      const Index* c = triangles.corners.data() + std::size_t{3} * t;
+      unsorted[t] = key({c[0], c[1], c[2]}, source.group_of(triangles.face[t]));
+      unsorted[t].triangle = t;
+      ++first_[unsorted[t].wedges[0] + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<Index> at(first_.begin(), first_.end() - 1);
+    for (const Key& k : unsorted) keys_[at[k.wedges[0]]++] = k;
+    for (std::size_t w = 0; w + 1 < first_.size(); ++w)
+      std::sort(keys_.begin() + first_[w], keys_.begin() + first_[w + 1]);
+  }
+
+  Index take(const Triple& wedges, Index group) {
+    const Key wanted = key(wedges, group);
+    const auto begin = keys_.begin() + first_[wanted.wedges[0]];
+    const auto end = keys_.begin() + first_[wanted.wedges[0] + 1];
+    const auto run = std::lower_bound(begin, end, wanted);
+    assert(run != end && run->wedges == wanted.wedges && run->group == group);
+    const auto found = run + handed_out_[static_cast<std::size_t>(run - keys_.begin())]++;
+    return found->triangle;
+  }
+
+ private:
+  struct Key {
+    Triple wedges;  // turned so that the least comes first
+    Index group;
+    Index triangle;
+    auto operator<=>(const Key&) const = default;
+  };
+  static Key key(Triple t, Index group) {
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    return {t, group, 0};
+  }
+
+  std::vector<Index> first_;  // keys by least wedge
+  std::vector<Key> keys_;
+  std::vector<Index> handed_out_;  // of the run of equal triangles that starts there
+};
+
+std::vector<Index> inverse(std::span<const Index> permutation) {
+  std::vector<Index> out(permutation.size());
+  for (std::size_t i = 0; i < permutation.size(); ++i) out[permutation[i]] = static_cast<Index>(i);
+  return out;
+}
+
+}  // namespace
+
+FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, const StripMap& strips,
+                        const Recording& recording) {
+  FaceRecord out;
+  out.order.vertex = recording.vertex_from;
+  if (!recording.mesh.single_wedges) out.order.wedge = recording.wedge_from;
+  const std::vector<Index> wedge_to = inverse(recording.wedge_from);
+
+  // A face is plain when the strips hold it as it is: a triangle with three different vertices.
+  const Index faces = source.face_count();
+  std::vector<Index> pieces(faces, 0);
+  for (const Index f : triangles.face) ++pieces[f];
+  const auto is_plain = [&](Index f) { return pieces[f] == 1 && source.face(f).size() == 3; };
+
+  // The strips' triangles in map order.
+  TriangleFinder finder(source, triangles);
+  std::vector<Index> map_triangle(
+      triangles.face.size());  // of each source triangle, its place in the map
+  Index t = 0;
+  std::size_t first = 0;
+  for (Index g = 0; g < strips.group_entries.size(); ++g) {
+    const auto entries = std::span(strips.entries).subspan(first, strips.group_entries[g]);
+    first += strips.group_entries[g];
+    for_each_triangle(
+        entries, [&](Index w) { return source.vertex_of(w); },
+        [&](Index a, Index b, Index c) {
+          const Triple corners{a, b, c};
+          const Index from = finder.take(corners, g);
+          map_triangle[from] = t++;
+          const Index f = triangles.face[from];
+          if (!is_plain(f)) return;
+          out.order.face.push_back(f);
+          const Index start = source.face(f)[0];
+          out.order.rotation.push_back(
+              static_cast<std::uint8_t>(std::ranges::find(corners, start) - corners.begin()));
+        });
+  }
+
+  // Everything else, in source order.
+  FaceTable& table = out.faces;
+  Index piece = 0;
+  for (Index f = 0; f < faces; ++f) {
+    const Index end = piece + pieces[f];
+    if (!is_plain(f)) {
+      table.first.push_back(static_cast<Index>(table.corners.size()));
+      table.replaced_first.push_back(static_cast<Index>(table.replaced.size()));
+      for (const Index w : source.face(f)) table.corners.push_back(wedge_to[w]);
+      table.group.push_back(source.group_of(f));
+      for (Index p = piece; p < end; ++p) table.replaced.push_back(map_triangle[p]);
+      out.order.face.push_back(f);
+      out.order.rotation.push_back(0);
+    }
+    piece = end;
+  }
+  if (!table.first.empty()) {
+    table.first.push_back(static_cast<Index>(table.corners.size()));
+    table.replaced_first.push_back(static_cast<Index>(table.replaced.size()));
+  }
+
+  for (const Attribute& a : source.face_attributes) {
+    Attribute sorted{a.semantic, a.type, a.count, a.normalized, {}};
+    sorted.data.reserve(a.data.size());
+    for (const Index f : out.order.face) {
+      const ByteView element = a.element(f);
+      sorted.data.insert(sorted.data.end(), element.begin(), element.end());
+    }
+    table.attributes.push_back(std::move(sorted));
+  }
+  return out;
+}
+
+}  // namespace pstrip

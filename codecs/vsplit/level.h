@@ -1,0 +1,79 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/progressive_strips.h"
+#include "core/result.h"
+
+namespace pstrip {
+
+/// One level of a progressive mesh while it is refined: the decoding state machine.
+/// [spec/vsplit.md §3; Kim04 §3.2]
+///
+/// Refers to the mesh, which must outlive it and may grow (a StreamDecoder appends packets). Its
+/// records must be safe, as both readers guarantee: parents, carried wedges and places in range,
+/// no place on a restart, every chain of the base map ending at a wedge.
+class Level {
+ public:
+  /// The base. Cost O(base and map size).
+  explicit Level(const ProgressiveMesh& mesh);
+
+  /// Applies the next `vsplits` records, those the mesh has not got left out. O(what they rewrite).
+  void refine(Index vsplits);
+  /// Up to the last record the mesh has.
+  void refine_fully() { refine(kNone); }
+
+  const ProgressiveMesh& mesh() const { return *mesh_; }
+  Index vsplits_done() const { return next_; }
+  Index vertex_count() const { return mesh_->base_vertices + next_; }
+  Index wedge_count() const { return wedge_count_; }
+  Index vertex_of(Index wedge) const {
+    return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge];
+  }
+
+  /// The index map with every symbol replaced by its wedge; restarts stay.
+  std::span<const Index> resolved() const { return resolved_; }
+  /// Position bytes of all vertices of the level, one element each.
+  ByteView positions() const;
+  /// The places that records from..vsplits_done() rewrote, as offsets into the map.
+  /// Precondition: `from` was vsplits_done() once.
+  struct Mark {
+    Index vsplit = 0;
+    std::size_t place = 0;
+  };
+  Mark mark() const { return {next_, place_}; }
+  std::span<const Index> places_since(const Mark& mark) const {
+    return std::span(mesh_->places).subspan(mark.place, place_ - mark.place);
+  }
+
+ private:
+  void write(Index offset, Index wedge);
+
+  const ProgressiveMesh* mesh_;
+  Index next_ = 0;  // first record not yet applied
+  Index wedge_count_ = 0;
+  std::size_t new_wedge_ = 0, place_ = 0, carried_ = 0;  // next element of the mesh's lists
+  std::vector<Index> resolved_;
+  std::vector<Index> map_;           // with symbols; empty when there are none
+  std::vector<Index> wedge_vertex_;  // empty with single wedges
+  Bytes moved_positions_;            // free placement only
+  std::vector<Index> pending_;       // scratch of write()
+};
+
+/// The mesh that a level shows, in decoded numbering; with `faces`, which needs the full level,
+/// polygons and other faces of the face table take the place of the triangles they replace.
+Mesh mesh_of(const Level& level);
+
+/// The original order, from a fully refined mesh in decoded numbering. [spec/model.md §7]
+/// Precondition: the lists of `order` are permutations of the right sizes.
+Mesh restore_order(const Mesh& decoded, const OriginalOrder& order);
+
+/// Strip bounds of an index map: first entry and one past the last of every strip (restarts
+/// excluded), empty strips left out.
+struct StripRange {
+  Index first, end;
+};
+std::vector<StripRange> strip_ranges(std::span<const Index> map);
+
+}  // namespace pstrip
