@@ -1,0 +1,115 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/bytes.h"
+#include "core/limits.h"
+#include "core/progressive_strips.h"
+#include "core/result.h"
+
+namespace pstrip {
+
+// The binary variant of progressive strips, plain profile. [spec/container.md]
+
+/// What PSHD says. [spec/container.md §4]
+struct FileHeader {
+  std::uint16_t version_major = 1;
+  std::uint16_t version_minor = 0;
+  std::uint8_t profile = 0;  ///< 0 plain
+  std::uint8_t level = 0;    ///< conformance level, see conformance_level()
+  std::uint16_t flags = 0;
+  std::uint32_t meshes = 0;
+  std::uint32_t packets = 0;
+  // At full resolution, all meshes together.
+  std::uint64_t vertices = 0, wedges = 0, triangles = 0, strips = 0, map_entries = 0, faces = 0;
+  std::uint64_t decoder_memory = 0;  ///< bytes, see decoder_memory()
+  std::uint64_t vsplits = 0;
+  std::uint64_t base_end = 0;    ///< bytes from the start of the file to the end of the last BASE
+  std::uint64_t file_bytes = 0;  ///< of the whole file
+  friend bool operator==(const FileHeader&, const FileHeader&) = default;
+};
+
+/// One row of PIDX: where a BASE or PCKT chunk stands and what its mesh has after it.
+/// [spec/container.md §7]
+struct IndexRow {
+  std::uint64_t offset = 0;  ///< of the chunk, from the start of the file
+  std::uint64_t bytes = 0;   ///< of the whole chunk, type to CRC
+  std::uint32_t mesh = 0;
+  std::uint32_t vsplits = 0;  ///< in the chunk
+  std::uint32_t vertices = 0, triangles = 0, strips = 0;
+  float error = 0;
+  friend bool operator==(const IndexRow&, const IndexRow&) = default;
+};
+
+/// The smallest conformance level that admits these totals. [spec/container.md §12]
+std::uint8_t conformance_level(const FileHeader& header);
+
+/// The memory that a streaming decoder needs for these meshes, bytes. [spec/container.md §12]
+///
+/// meshes              vertices, wedges, map length and attribute formats are used, data is not
+/// largest_chunk       bytes of the largest BASE or PCKT chunk
+std::uint64_t decoder_memory(std::span<const ProgressiveMesh> meshes, std::uint64_t largest_chunk);
+
+/// Writes a whole file. The same strips give the same bytes.
+///
+/// Precondition: `strips` is complete and `check(strips)` holds (formats/pstrip/check.h).
+/// errors  over_limit when a chunk would exceed 2^31 - 1 bytes
+/// cost    O(file); one buffer of exactly the file's size
+Result<Bytes> write_binary(const ProgressiveStrips& strips);
+
+enum class ReadMode : std::uint8_t {
+  whole,   ///< a file that ends early is an error
+  prefix,  ///< a file that ends early gives what its whole packets brought
+};
+
+/// Reads a file. What it returns satisfies `check` (formats/pstrip/check.h): every index is in
+/// range, so that a decoder may follow it without asking; what a validator must still ask is
+/// whether the records mean what they say.
+///
+/// errors  truncated before the end (prefix mode: before the last BASE), corrupt, unsupported
+///         (unknown critical chunk, version or profile), over_limit; with the byte offset
+/// cost    O(file) time; O(file) memory however large the counts in it
+Result<ProgressiveStrips> read_binary(ByteView file, const Limits& limits = {},
+                                      ReadMode mode = ReadMode::whole);
+
+/// The push form of read_binary, for bytes as they arrive.
+///
+/// After each whole chunk the strips grow: arrays are in order of appearance, so that a prefix of
+/// the file fills a prefix of each. At most one chunk is buffered. A chunk that is refused leaves
+/// the strips as they were before it.
+class BinaryParser {
+ public:
+  /// file_bytes  the size of the file when it is known, else 0; memory is then reserved at once
+  explicit BinaryParser(const Limits& limits = {}, std::uint64_t file_bytes = 0);
+  ~BinaryParser();
+  BinaryParser(BinaryParser&&) noexcept;
+  BinaryParser& operator=(BinaryParser&&) noexcept;
+
+  /// Takes the next bytes of the file. The first error stays: later calls return it again.
+  Result<void> feed(ByteView bytes);
+
+  /// What the whole chunks brought so far. `complete` is false before PEND.
+  const ProgressiveStrips& strips() const;
+  ProgressiveStrips take() &&;
+
+  /// Every BASE is there: level 0 can be shown.
+  bool has_base() const;
+  /// PEND is there.
+  bool complete() const;
+  const std::optional<Error>& error() const;
+  /// What to answer when the file ends here: `error()`, truncated, or nothing when complete.
+  std::optional<Error> end() const;
+
+  const std::optional<FileHeader>& header() const;  ///< once PSHD is there
+  std::span<const IndexRow> index() const;          ///< once PIDX is there: bases, then packets
+  std::uint64_t bytes_taken() const;                ///< all that was fed
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace pstrip

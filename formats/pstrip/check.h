@@ -1,0 +1,46 @@
+#pragma once
+
+#include "core/progressive_strips.h"
+#include "core/result.h"
+
+namespace pstrip {
+
+// What every reader of progressive strips checks, so that whoever works on what it returned may
+// follow each index without asking. [spec/model.md, spec/vsplit.md]
+
+/// Where a packet starts in the flat lists of its mesh, and, after the last one, where they end.
+struct PacketStart {
+  std::size_t vsplit = 0, wedge_place = 0, carried = 0, place = 0;
+  Index vertices = 0, wedges = 0;  ///< there before the packet
+  friend bool operator==(const PacketStart&, const PacketStart&) = default;
+};
+
+/// The start of the first packet.
+PacketStart first_packet(const ProgressiveMesh& mesh);
+/// The start of the packet after one of `vsplits` records that starts at `start`.
+PacketStart packet_after(const ProgressiveMesh& mesh, const PacketStart& start, Index vsplits);
+
+/// Names, formats, groups and counts of mesh `index`, before its base is there.
+Result<void> check_mesh_header(const ProgressiveStrips& strips, Index index, Index map_entries);
+/// Base lists and index map of mesh `index`.
+Result<void> check_base(const ProgressiveStrips& strips, Index index);
+/// Records [start, end) of mesh `index`, given that all before them hold.
+Result<void> check_packet(const ProgressiveStrips& strips, Index index, const PacketStart& start,
+                          const PacketStart& end);
+/// Face table, order and digest of mesh `index`, as far as they are there.
+Result<void> check_faces(const ProgressiveStrips& strips, Index index);
+Result<void> check_order(const ProgressiveStrips& strips, Index index);
+/// Parents, meshes, images and materials that nodes and materials name.
+Result<void> check_scene(const ProgressiveStrips& strips);
+
+/// All of the above and that the packets partition the vsplits. With `complete` unset, the lists
+/// may end early but not inside a packet.
+///
+/// errors  corrupt, with a path such as "/meshes/0/vsplits/17"
+/// cost    O(size)
+Result<void> check(const ProgressiveStrips& strips);
+
+/// Faces of the decoded mesh: triangles that nothing replaces and explicit faces.
+Index face_count(const ProgressiveMesh& mesh);
+
+}  // namespace pstrip
