@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "core/progressive_strips.h"
+
+namespace pstrip {
+
+// Words that stand for values in the XML variant. [spec/xml.md §5]
+
+/// In the order of the enumeration that each belongs to.
+inline constexpr std::array<std::string_view, 2> kEncodingNames = {"naive", "offset-difference"};
+inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "free"};
+inline constexpr std::array<std::string_view, 3> kFaceKindNames = {"polygons", "lines", "points"};
+/// From kSameAsMinus2 to kRestart.
+inline constexpr std::array<std::string_view, 5> kMarkerNames = {"R-2", "R-1", "R+1", "R+2", "|"};
+inline constexpr std::string_view kDigestAlgorithm = "SHA-256";
+
+inline std::string_view name_of(MapEncoding v) {
+  return kEncodingNames[static_cast<std::size_t>(v)];
+}
+inline std::string_view name_of(Placement v) {
+  return kPlacementNames[static_cast<std::size_t>(v)];
+}
+inline std::string_view name_of(FaceKind v) { return kFaceKindNames[static_cast<std::size_t>(v)]; }
+/// Precondition: !is_wedge(entry).
+inline std::string_view name_of_marker(Index entry) { return kMarkerNames[entry - kSameAsMinus2]; }
+
+}  // namespace pstrip

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+
+#include "core/bytes.h"
+#include "core/limits.h"
+#include "core/result.h"
+
+namespace pstrip {
+
+/// What the markup of a document amounts to.
+struct XmlExtent {
+  std::uint64_t elements = 0, attributes = 0, texts = 0;
+};
+
+/// Walks the markup of a whole document before a DOM is built of it, since the DOM builder cannot
+/// tell an early end from an error, knows no byte offsets, takes some documents that are not well
+/// formed, and must not be given one that is too deep or too large.
+///
+/// Holds afterwards: UTF-8 of characters that XML 1.0 allows; one root; tags match; attributes are
+/// quoted; entities are the five of XML or character references; no DTD, no processing
+/// instruction. Not checked: that attribute names differ within a tag.
+///
+/// errors  truncated, corrupt or over_limit (xml_depth), with the byte offset and the line
+/// cost    O(bytes); memory O(depth)
+Result<XmlExtent> scan_xml(ByteView document, const Limits& limits);
+
+/// Where a line starts; the end of the document for a line past it. Lines count from 1.
+std::uint64_t offset_of_line(ByteView document, std::uint64_t line);
+
+}  // namespace pstrip
