@@ -6,6 +6,9 @@
 namespace pstrip {
 namespace {
 
+/// Keeps every sum of array sizes within 64 bits. [spec/model.md M-006]
+constexpr std::size_t kMaxAttributes = 1024;
+
 tl::unexpected<Error> corrupt(std::string message, std::string path) {
   return fail(ErrorCode::corrupt, std::move(message), kNoOffset, std::move(path));
 }
@@ -36,12 +39,17 @@ std::size_t first_not_below(std::span<const Index> list, Index end) {
                                   list.begin());
 }
 
-Result<void> check_permutation_range(std::span<const Index> list, Index count, Index mesh,
-                                     const char* name) {
+Result<void> check_permutation(std::span<const Index> list, Index count, Index mesh,
+                               const char* name) {
   if (list.size() != count)
     return corrupt("order has not one entry for each element", mesh_path(mesh) + "/order");
-  if (const std::size_t i = first_not_below(list, count); i < list.size())
-    return corrupt("order names an element past the end", item_path(mesh, name, i));
+  std::vector<bool> named(count);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] >= count)
+      return corrupt("order names an element past the end", item_path(mesh, name, i));
+    if (named[list[i]]) return corrupt("order names an element twice", item_path(mesh, name, i));
+    named[list[i]] = true;
+  }
   return {};
 }
 
@@ -131,6 +139,8 @@ Result<void> check_mesh_header(const ProgressiveStrips& strips, Index index, Ind
     const std::string path = item_path(index, "face_attributes", i);
     if (Result<void> ok = check_format(mesh.face_attribute_formats[i], path); !ok) return ok;
   }
+  if (std::max(mesh.wedge_attributes.size(), mesh.face_attribute_formats.size()) > kMaxAttributes)
+    return corrupt("more than 1024 attributes of a kind", mesh_path(index));
   if (mesh.groups.empty() || mesh.groups.size() != mesh.group_entries.size())
     return corrupt("mesh without a group", mesh_path(index));
   std::uint64_t entries = 0;
@@ -256,15 +266,13 @@ Result<void> check_order(const ProgressiveStrips& strips, Index index) {
   const OriginalOrder& order = mesh.order;
   const Index faces = face_count(mesh);
   if (order == OriginalOrder{}) return {};
-  if (Result<void> ok = check_permutation_range(order.vertex, mesh.vertices, index, "order/vertex");
+  if (Result<void> ok = check_permutation(order.vertex, mesh.vertices, index, "order/vertex"); !ok)
+    return ok;
+  if (Result<void> ok = check_permutation(order.wedge, mesh.single_wedges ? 0 : mesh.wedges, index,
+                                          "order/wedge");
       !ok)
     return ok;
-  if (Result<void> ok = check_permutation_range(order.wedge, mesh.single_wedges ? 0 : mesh.wedges,
-                                                index, "order/wedge");
-      !ok)
-    return ok;
-  if (Result<void> ok = check_permutation_range(order.face, faces, index, "order/face"); !ok)
-    return ok;
+  if (Result<void> ok = check_permutation(order.face, faces, index, "order/face"); !ok) return ok;
   if (order.rotation.size() != faces)
     return corrupt("not one rotation for each face", mesh_path(index) + "/order");
   const std::size_t triangles = faces - mesh.faces.count();
