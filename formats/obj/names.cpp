@@ -1,0 +1,165 @@
+#include "formats/obj/names.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "formats/obj/numbers.h"
+#include "formats/obj/obj.h"
+
+namespace pstrip::obj {
+namespace {
+
+/// The length of the well-formed UTF-8 sequence at the start of `text`, else 0. [RFC3629 §4]
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead < 0xc2   ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+  if (length == 0 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if (byte(i) >> 6 != 2) return 0;
+  const bool too_long = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
+  const bool surrogate = lead == 0xed && byte(1) > 0x9f;
+  const bool too_large = lead == 0xf4 && byte(1) > 0x8f;
+  return too_long || surrogate || too_large ? 0 : length;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+bool ends_in_mtl(std::string_view word) {
+  constexpr std::string_view kExtension = ".mtl";
+  if (word.size() < kExtension.size()) return false;
+  return std::ranges::equal(
+      word.substr(word.size() - kExtension.size()), kExtension,
+      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view next_word(std::string_view& text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  const auto end = static_cast<std::size_t>(std::ranges::find_if(text, is_space) - text.begin());
+  const std::string_view word = text.substr(0, end);
+  text.remove_prefix(end);
+  return word;
+}
+
+std::string clean_name(std::string_view text) {
+  const bool utf8 = is_utf8(text);
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      out += ' ';
+    } else if (byte < 0x80 || utf8) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xc0 | byte >> 6);
+      out += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return std::string(trimmed(out));
+}
+
+std::string clean_group(std::string_view text) {
+  const std::string clean = clean_name(text);
+  std::string_view rest = clean;
+  std::string out;
+  for (auto word = next_word(rest); !word.empty(); word = next_word(rest)) {
+    if (!out.empty()) out += ' ';
+    out += word;
+  }
+  return out;
+}
+
+std::optional<std::string> companion_path(std::string_view written) {
+  std::string path;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const char c = written[i];
+    if (static_cast<std::uint8_t>(c) < 0x20 || c == ':') return std::nullopt;
+    if (c == '\\' && i + 1 < written.size() && written[i + 1] == ' ') continue;
+    path += c == '\\' ? '/' : c;
+  }
+  if (path.starts_with('/')) return std::nullopt;
+  std::string out;
+  for (std::string_view rest = path; !rest.empty();) {
+    const std::size_t slash = std::min(rest.find('/'), rest.size());
+    const std::string_view part = rest.substr(0, slash);
+    rest.remove_prefix(std::min(slash + 1, rest.size()));
+    if (part == "..") return std::nullopt;
+    if (part.empty() || part == ".") continue;
+    if (!out.empty()) out += '/';
+    out += part;
+  }
+  if (out.empty()) return std::nullopt;
+  return out;
+}
+
+std::vector<std::string_view> split_mtllib(std::string_view text) {
+  std::vector<std::string_view> names;
+  text = trimmed(text);
+  for (std::size_t begin = 0, at = 0; at < text.size();) {
+    while (at < text.size() && (!is_space(text[at]) || text[at - 1] == '\\')) ++at;
+    const std::string_view name = text.substr(begin, at - begin);
+    while (at < text.size() && is_space(text[at])) ++at;
+    if (!ends_in_mtl(name) && at < text.size()) continue;
+    names.push_back(name);
+    begin = at;
+  }
+  return names;
+}
+
+GroupName split_group_name(std::string_view name) {
+  GroupName out;
+  const std::size_t slash = name.find('/');
+  if (slash == name.npos) {
+    out.group = name;
+    return out;
+  }
+  out.group = name.substr(slash + 1);
+  for (std::string_view rest = name.substr(0, slash); !rest.empty();) {
+    const std::string_view escape = rest.substr(0, 3);
+    const bool escaped = escape == "%2F" || escape == "%25";
+    out.object += escape == "%2F" ? '/' : rest.front();
+    rest.remove_prefix(escaped ? 3 : 1);
+  }
+  return out;
+}
+
+}  // namespace pstrip::obj
+
+namespace pstrip {
+
+std::string obj_group_name(std::string_view object, std::string_view group) {
+  std::string out;
+  for (const char c : object) {
+    if (c == '/')
+      out += "%2F";
+    else if (c == '%')
+      out += "%25";
+    else
+      out += c;
+  }
+  if (!out.empty() || group.find('/') != group.npos) out += '/';
+  return out.append(group);
+}
+
+}  // namespace pstrip

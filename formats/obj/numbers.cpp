@@ -1,0 +1,139 @@
+#include "formats/obj/numbers.h"
+
+#include <fast_float/fast_float.h>
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+namespace pstrip::obj {
+namespace {
+
+// Powers of ten that are exact in a double: m·10^e or m/10^-e of an m below 2^53 is then one
+// rounding away from the decimal, and so correct. [Clinger90]
+constexpr int kExactPower = 22;
+constexpr std::array<double, kExactPower + 1> kPowers = [] {
+  std::array<double, kExactPower + 1> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
+  return powers;
+}();
+constexpr std::uint64_t kExactInteger = std::uint64_t{1} << 53;
+
+double scaled(std::uint64_t m, int exponent) {
+  const auto value = static_cast<double>(m);
+  return exponent < 0 ? value / kPowers[static_cast<std::size_t>(-exponent)]
+                      : value * kPowers[static_cast<std::size_t>(exponent)];
+}
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// A double half way between two floats: the decimal it stands for may lie on either side.
+bool is_tie(double value) {
+  return (std::bit_cast<std::uint64_t>(value) & 0x1fff'ffff) == 0x1000'0000;
+}
+
+/// fits_f32 for m·10^exponent, most often without printing. Six digits always survive a float.
+/// Seven to nine do when the decimals next to them belong to other floats.
+bool decimal_fits_f32(std::uint64_t m, int exponent, double magnitude) {
+  constexpr std::uint64_t kSixDigits = 1'000'000, kNineDigits = 1'000'000'000;
+  if (m == 0) return true;
+  while (m >= kSixDigits && m % 10 == 0) {
+    m /= 10;
+    ++exponent;
+  }
+  // Well inside the normal floats; larger integers may print with all their digits.
+  constexpr double kSmallest = 1e-37, kLargest = 1 << 24;
+  if (magnitude < kSmallest || magnitude > kLargest) return fits_f32(magnitude);
+  if (m < kSixDigits) return true;
+  if (m >= kNineDigits || exponent > kExactPower) return fits_f32(magnitude);
+  const double lower = scaled(m - 1, exponent), upper = scaled(m + 1, exponent);
+  if (is_tie(lower) || is_tie(upper) || is_tie(magnitude)) return fits_f32(magnitude);
+  const auto nearest = static_cast<float>(magnitude);
+  if (static_cast<float>(lower) != nearest && static_cast<float>(upper) != nearest) return true;
+  return fits_f32(magnitude);
+}
+
+/// What the C runtime of Visual Studio before 2015 printed for NaN and infinity.
+bool parse_msvc_special(std::string_view token, double& value) {
+  const bool negative = token.starts_with('-');
+  if (negative || token.starts_with('+')) token.remove_prefix(1);
+  if (!token.starts_with("1.#")) return false;
+  token.remove_prefix(3);
+  while (token.ends_with('0')) token.remove_suffix(1);
+  if (token == "INF")
+    value = std::numeric_limits<double>::infinity();
+  else if (token == "IND" || token == "QNAN" || token == "SNAN")
+    value = std::numeric_limits<double>::quiet_NaN();
+  else
+    return false;
+  value = std::copysign(value, negative ? -1 : 1);
+  return true;
+}
+
+const char* parse_any_number(const char* p, const char* end, Number& out) {
+  const char* stop = p;
+  while (stop != end && !is_space(*stop)) ++stop;
+  const std::string_view token(p, static_cast<std::size_t>(stop - p));
+  const bool plus = token.starts_with('+');
+  const auto [read, error] = fast_float::from_chars(p + plus, stop, out.value);
+  const bool whole = error == std::errc() && read == stop && !token.starts_with("+-");
+  if (!whole && !parse_msvc_special(token, out.value)) return nullptr;
+  const bool says_so = token.find_first_of("nN") != token.npos;  // inf, nan, 1.#INF …
+  if (!std::isfinite(out.value) && !says_so) return nullptr;
+  out.fits_f32 = fits_f32(out.value);
+  return stop;
+}
+
+template <class T>
+void append_shortest(std::string& out, T value) {
+  char text[32];  // -1.7976931348623157e+308 has 24 characters
+  const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+  out.append(text, end);
+}
+
+}  // namespace
+
+bool fits_f32(double value) {
+  constexpr double kRoundsToLargest = 3.40282356e38;  // the shortest FLT_MAX is below
+  if (!std::isfinite(value)) return true;
+  if (std::abs(value) > kRoundsToLargest) return false;
+  char text[32];
+  const auto end = std::to_chars(std::begin(text), std::end(text), static_cast<float>(value)).ptr;
+  double again = 0;
+  fast_float::from_chars(text, end, again);
+  return std::bit_cast<std::uint64_t>(again) == std::bit_cast<std::uint64_t>(value);
+}
+
+const char* parse_number(const char* p, const char* end, Number& out) {
+  const char* const start = p;
+  const bool negative = p != end && *p == '-';
+  if (negative) ++p;
+  std::uint64_t m = 0;
+  const char* const integer = p;
+  while (p != end && is_digit(*p)) m = 10 * m + static_cast<std::uint64_t>(*p++ - '0');
+  auto digits = p - integer;
+  int exponent = 0;
+  constexpr int kSafeDigits = 18;  // of which no integer exceeds 64 bits
+  if (p != end && *p == '.') {
+    const char* const fraction = ++p;
+    while (p != end && is_digit(*p)) m = 10 * m + static_cast<std::uint64_t>(*p++ - '0');
+    digits += p - fraction;
+    if (digits <= kSafeDigits) exponent = -static_cast<int>(p - fraction);
+  }
+  const bool simple =
+      digits > 0 && digits <= kSafeDigits && m < kExactInteger && (p == end || is_space(*p));
+  if (!simple) return parse_any_number(start, end, out);
+  const double magnitude = scaled(m, exponent);
+  out.value = negative ? -magnitude : magnitude;
+  out.fits_f32 = decimal_fits_f32(m, exponent, magnitude);
+  return p;
+}
+
+void append_number(std::string& out, float value) { append_shortest(out, value); }
+void append_number(std::string& out, double value) { append_shortest(out, value); }
+
+}  // namespace pstrip::obj

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace pstrip::obj {
+
+constexpr bool is_space(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+struct Number {
+  double value = 0;
+  /// The float nearest to `value` prints, with append_number, as a decimal of `value`: a float
+  /// keeps all that the text said.
+  bool fits_f32 = true;
+};
+
+/// Reads the number that starts at p and ends at white space or `end`; correctly rounded, any
+/// notation of C, "inf", "nan" and MSVC's "1.#IND" and "1.#INF".
+///
+/// returns  one past the number, or null when there is none or no finite double comes near it
+const char* parse_number(const char* p, const char* end, Number& out);
+
+/// The meaning of Number::fits_f32, by trying.
+bool fits_f32(double value);
+
+/// Appends the shortest decimal that reads back to the same value.
+void append_number(std::string& out, float value);
+void append_number(std::string& out, double value);
+
+}  // namespace pstrip::obj

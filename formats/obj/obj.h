@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/limits.h"
+#include "core/result.h"
+#include "core/scene.h"
+
+namespace pstrip {
+
+// Wavefront OBJ and MTL [WavefrontB1, WavefrontMtl], polygonal part: v vt vn, f l p, o g s,
+// mtllib usemtl, with the vertex colours that MeshLab and others append to `v`.
+
+/// Opens a companion of the model. The name is relative, has '/' between its parts and never
+/// leads out of the model's folder. A file that is not there is ErrorCode::io; any other error
+/// ends the reading.
+using ReadFile = std::function<Result<Bytes>(const std::string& relative_name)>;
+
+/// Attributes for what a `v` or `vt` line may say beyond glTF's vocabulary.
+inline constexpr std::string_view kObjWeight = "_OBJ_WEIGHT";  ///< w of `v x y z w`, wedge
+inline constexpr std::string_view kObjTexW = "_OBJ_VT_W";      ///< w of `vt u v w`, wedge
+inline constexpr std::string_view kObjSmoothing = "s";  ///< smoothing group, u32 a face; 0 is off
+
+/// u8 a wedge, there only when wedges differ in what they have. The value in an attribute whose
+/// bit is clear is 0 and was not in the file.
+inline constexpr std::string_view kObjPresent = "_OBJ_PRESENT";
+enum ObjPresent : std::uint8_t {
+  kHasTexcoord = 1,
+  kHasNormal = 2,
+  kHasColor = 4,
+  kHasWeight = 8,
+  kHasTexV = 16,
+  kHasTexW = 32,
+  kHasAlpha = 64,
+};
+
+/// Reads a model as one mesh.
+///
+/// vertices   the `v` lines in order, never welded; forward references are fine
+/// wedges     the distinct (v, value of vt, value of vn), ordered by vertex, then by first corner;
+///            a vertex that no corner names has one. NORMAL, TEXCOORD_0, COLOR_0 (rgb, or rgba
+///            when a line has four), then the attributes above
+/// numbers    an attribute is f32 when the shortest decimals of its floats are the numbers of the
+///            file, else f64: no decimal of up to 17 digits is lost
+/// faces      `f`, `l` and `p` in file order, of any size, never triangulated; a `p` line is one
+///            face for each of its points
+/// groups     the distinct (object, groups, material, kind) in order of use. Group::name as
+///            obj_group_name makes it; when all faces are of one object, it is Mesh::name instead
+/// clouds     in a file without any face, vt and vn belong to the vertices if there are as many
+/// materials  those of all .mtl files in order (the first of a name counts), then those that only
+///            `usemtl` knows, all as the file's author wrote them: Kd is taken for linear colour,
+///            Pm and Pr for metallic and roughness, else 0 and what Ns means
+/// foreign    "obj/header" the comment lines at the top; "obj/mtl" the text of the .mtl files;
+///            "obj/mtllib" names that could not be read, which is no error; "obj/notes"
+///            statements that were not interpreted (free-form geometry, display attributes) and
+///            how many vt and vn lines no corner names
+/// text       names that are not UTF-8 are taken for Latin-1; control characters become spaces
+///
+/// errors  corrupt, over_limit, or truncated when the last line stops short; with the offset and
+///         "line N". An index that is 0 or names nothing is corrupt
+/// cost    O(size), about 12 times the file's size in memory at most
+Result<Model> read_obj(ByteView file, const ReadFile& read_file, const Limits& limits = {});
+
+struct ObjFiles {
+  Bytes obj;
+  Bytes mtl;             ///< empty: no material needs a file
+  std::string mtl_name;  ///< what `mtllib` says; empty with `mtl`
+  /// What OBJ has no words for: attribute semantics, and phrases such as "node transforms".
+  std::vector<std::string> dropped;
+};
+
+/// Writes a model; several meshes become several objects. The numbers are the shortest decimals
+/// that read back to the same float or double. read_obj of the result is the model again, exactly,
+/// if it came from read_obj. The .mtl text is the original one as long as it still says what the
+/// materials are.
+///
+/// mtl_name  for `mtllib`; relative, see ReadFile; may be empty: then no .mtl is made
+/// errors    bad_argument for an mtl_name that a reader would refuse
+Result<ObjFiles> write_obj(const Model& model, std::string mtl_name);
+
+/// One name for an object and its group names: "group" without an object, else "object/" or
+/// "object/group"; '%' and '/' within an object are written "%25" and "%2F".
+std::string obj_group_name(std::string_view object, std::string_view group);
+
+}  // namespace pstrip

@@ -1,0 +1,437 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <cstring>
+#include <set>
+
+#include "formats/obj/mtl.h"
+#include "formats/obj/names.h"
+#include "formats/obj/numbers.h"
+#include "formats/obj/obj.h"
+
+namespace pstrip {
+namespace {
+
+void append_index(std::string& out, std::uint64_t index) {
+  char text[20];
+  out.append(text, std::to_chars(std::begin(text), std::end(text), index).ptr);
+}
+
+/// Component c of element i; a float prints as the float it is.
+void append_component(std::string& out, const Attribute& a, std::size_t i, std::size_t c) {
+  out += ' ';
+  if (a.type == ComponentType::f32) {
+    float value = 0;
+    std::memcpy(&value, a.element(i).data() + c * sizeof value, sizeof value);
+    obj::append_number(out, value);
+  } else {
+    obj::append_number(out, component(a, i, c));
+  }
+}
+
+/// One of the `vt` or `vn` blocks: which line each wedge refers to, 1-based in the file; 0: none.
+struct Tuples {
+  std::vector<std::uint64_t> line;
+};
+
+constexpr std::uint64_t hash_of(ByteView bytes) {  // FNV-1a; collisions cost time, no more
+  std::uint64_t hash = 0xcbf2'9ce4'8422'2325;
+  for (const std::byte b : bytes)
+    hash = (hash ^ std::to_integer<std::uint64_t>(b)) * 0x100'0000'01b3;
+  return hash;
+}
+
+/// Writes the text of a model, one mesh after the other.
+class ObjWriter {
+ public:
+  ObjWriter(const Model& model, std::string mtl_name) : model_(model) {
+    files_.mtl_name = std::move(mtl_name);
+  }
+
+  ObjFiles write() && {
+    write_foreign_lines("obj/header", "#");
+    write_materials();
+    write_foreign_lines("obj/mtllib", "mtllib ");
+    for (std::size_t m = 0; m < model_.meshes.size(); ++m) write_mesh(m);
+    write_foreign_lines("obj/notes", "# note: ");
+    report_scene();
+    files_.obj = bytes_of(out_);
+    files_.dropped.assign(dropped_.begin(), dropped_.end());
+    return std::move(files_);
+  }
+
+ private:
+  static Bytes bytes_of(std::string_view text) {
+    const ByteView bytes = as_bytes(text);
+    return Bytes(bytes.begin(), bytes.end());
+  }
+
+  void drop(std::string_view what) { dropped_.emplace(what); }
+
+  /// A backslash at the end would join the next line.
+  void end_line() {
+    if (out_.ends_with('\\')) out_ += ' ';
+    out_ += '\n';
+  }
+
+  std::string_view foreign(std::string_view key) const {
+    const auto& list = model_.scene.foreign;
+    const auto found = std::ranges::find(list, key, &Foreign::key);
+    return found == list.end() ? std::string_view() : as_text(found->data);
+  }
+
+  void write_foreign_lines(std::string_view key, std::string_view prefix) {
+    std::string_view text = foreign(key);
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      const std::string_view line = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      if (prefix != "#" || !line.starts_with('#')) out_ += prefix;
+      out_ += line;
+      prefix == "mtllib " ? end_line() : void(out_ += '\n');
+    }
+  }
+
+  // Materials.
+
+  void write_materials() {
+    const Scene& scene = model_.scene;
+    if (keeps_original_mtl()) {
+      for (const Material& material : scene.materials) material_names_.push_back(material.name);
+      files_.mtl = bytes_of(foreign("obj/mtl"));
+    } else {
+      make_material_names();
+      files_.mtl = bytes_of(obj::write_mtl(scene, material_names_));
+      report_materials();
+    }
+    if (files_.mtl_name.empty() && !files_.mtl.empty()) {
+      drop("materials");
+      files_.mtl.clear();
+    }
+    if (files_.mtl.empty()) files_.mtl_name.clear();
+    if (files_.mtl.empty()) return;
+    out_ += "mtllib " + files_.mtl_name;
+    end_line();
+  }
+
+  /// The original text still makes these materials, followed by some that are only names.
+  bool keeps_original_mtl() const {
+    Scene original;
+    if (!obj::read_mtl(foreign("obj/mtl"), original, Limits{})) return false;
+    const auto& materials = model_.scene.materials;
+    const auto defined = original.materials.size();
+    if (materials.size() < defined || model_.scene.images != original.images) return false;
+    std::set<std::string_view> seen;
+    std::vector<bool> is_first(materials.size());
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      const Material& material = materials[m];
+      const Material expected =
+          m < defined ? original.materials[m] : obj::named_material(obj::clean_name(material.name));
+      if (material != expected) return false;
+      is_first[m] = !material.name.empty() && seen.insert(material.name).second;
+    }
+    for (const Mesh& mesh : model_.meshes)
+      for (const Group& group : mesh.groups)
+        if (group.material != kNone && !is_first[group.material]) return false;
+    return true;
+  }
+
+  void make_material_names() {
+    std::set<std::string> taken;
+    for (const Material& material : model_.scene.materials) {
+      const std::string clean = obj::clean_name(material.name);
+      const std::string base = clean.empty() ? "material" : clean;
+      std::string name = base;
+      for (std::size_t n = 2; !taken.insert(name).second; ++n)
+        name = base + '_' + std::to_string(n);
+      material_names_.push_back(std::move(name));
+    }
+  }
+
+  void report_materials() {
+    for (const Material& material : model_.scene.materials)
+      if (material.double_sided) drop("double_sided");
+    for (const Image& image : model_.scene.images)
+      if (image.uri.empty()) drop("embedded images");
+  }
+
+  void report_scene() {
+    for (const Node& node : model_.scene.nodes)
+      if (!node.meshes.empty() && node.matrix != Node{}.matrix) drop("node transforms");
+    std::vector<int> uses(model_.meshes.size());
+    for (const Node& node : model_.scene.nodes)
+      for (const Index mesh : node.meshes)
+        if (mesh < uses.size() && ++uses[mesh] > 1) drop("node instances");
+  }
+
+  // Meshes.
+
+  /// What write_mesh finds out before it writes.
+  struct Plan {
+    const Attribute *normal = nullptr, *texcoord = nullptr, *texw = nullptr;
+    const Attribute *color = nullptr, *weight = nullptr, *smoothing = nullptr;
+    const Attribute* present = nullptr;
+    std::vector<bool> used;           ///< wedges that a corner names, or all of a cloud
+    std::vector<Index> vertex_wedge;  ///< a wedge of each vertex
+    bool cloud = false;               ///< no corners in the file: the n-th vn is the n-th v's
+  };
+
+  static bool has(const Plan& plan, std::size_t wedge, ObjPresent what) {
+    return !plan.present || (std::to_integer<int>(plan.present->data[wedge]) & what) != 0;
+  }
+
+  Plan plan_mesh(const Mesh& mesh) {
+    Plan plan;
+    for (const Attribute& a : mesh.wedge_attributes) {
+      if (a.semantic == "NORMAL" && a.count == 3)
+        plan.normal = &a;
+      else if (a.semantic == "TEXCOORD_0")
+        plan.texcoord = &a;
+      else if (a.semantic == "COLOR_0" && (a.count == 3 || a.count == 4))
+        plan.color = &a;
+      else if (a.semantic == kObjTexW && a.count == 1)
+        plan.texw = &a;
+      else if (a.semantic == kObjWeight && a.count == 1)
+        plan.weight = &a;
+      else if (a.semantic == kObjPresent && a.count == 1 && a.type == ComponentType::u8)
+        plan.present = &a;
+      else
+        drop(a.semantic);
+    }
+    for (const Attribute& a : mesh.face_attributes) {
+      if (a.semantic == kObjSmoothing && a.count == 1 && a.type == ComponentType::u32)
+        plan.smoothing = &a;
+      else
+        drop(a.semantic);
+    }
+    if (plan.texw && (!plan.texcoord || plan.texcoord->count > 2))
+      drop(kObjTexW), plan.texw = nullptr;
+    plan.used.assign(mesh.wedge_count(), false);
+    for (const Index w : mesh.corners) plan.used[w] = true;
+    plan.cloud = mesh.corners.empty() && model_.meshes.size() == 1 &&
+                 mesh.wedge_count() == mesh.vertex_count() && mesh.wedge_vertex.empty();
+    if (plan.cloud) plan.used.assign(mesh.wedge_count(), true);
+    plan.vertex_wedge.assign(mesh.vertex_count(), 0);
+    for (Index w = mesh.wedge_count(); w-- > 0;) plan.vertex_wedge[mesh.vertex_of(w)] = w;
+    keep_if_of_vertex(mesh, plan, plan.color);
+    keep_if_of_vertex(mesh, plan, plan.weight);
+    report_vertex_values(mesh, plan);
+    return plan;
+  }
+
+  /// OBJ has colours and weights on vertices only.
+  void keep_if_of_vertex(const Mesh& mesh, const Plan& plan, const Attribute*& attribute) {
+    if (!attribute) return;
+    for (Index w = 0; w < mesh.wedge_count(); ++w)
+      if (!std::ranges::equal(attribute->element(w),
+                              attribute->element(plan.vertex_wedge[mesh.vertex_of(w)]))) {
+        drop(attribute->semantic);
+        attribute = nullptr;
+        return;
+      }
+  }
+
+  void report_vertex_values(const Mesh& mesh, const Plan& plan) {
+    if (mesh.position.count > 3) drop("POSITION beyond xyz");
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Index w = plan.vertex_wedge[v];
+      if (plan.color && plan.weight && has(plan, w, kHasColor) && has(plan, w, kHasWeight))
+        drop(kObjWeight);
+    }
+    const bool has_tuples = plan.normal || plan.texcoord;
+    if (has_tuples && std::ranges::find(plan.used, false) != plan.used.end())
+      report_unused(mesh, plan);
+  }
+
+  void report_unused(const Mesh& mesh, const Plan& plan) {
+    const auto is_zero = [](std::byte b) { return b == std::byte{0}; };
+    for (const Attribute* a : {plan.normal, plan.texcoord})
+      for (Index w = 0; a && w < mesh.wedge_count(); ++w)
+        if (!plan.used[w] && !std::ranges::all_of(a->element(w), is_zero))
+          drop(a->semantic + " of wedges without a face");
+  }
+
+  void write_mesh(std::size_t m) {
+    const Mesh& mesh = model_.meshes[m];
+    assert(find_inconsistency(mesh).empty());
+    std::string name = obj::clean_name(mesh.name);
+    if (name.empty() && model_.meshes.size() > 1) name = "mesh_" + std::to_string(m + 1);
+    if (name != object_) {
+      object_ = name;
+      write_statement("o", object_);
+    }
+    const Plan plan = plan_mesh(mesh);
+    for (Index v = 0; v < mesh.vertex_count(); ++v) write_vertex(mesh, plan, v);
+    const Tuples texcoords = write_tuples(mesh, plan, plan.texcoord, kHasTexcoord, texcoord_count_);
+    const Tuples normals = write_tuples(mesh, plan, plan.normal, kHasNormal, normal_count_);
+    write_faces(mesh, plan, name, texcoords, normals);
+    vertex_count_ += mesh.vertex_count();
+  }
+
+  void write_statement(std::string_view word, std::string_view name) {
+    out_ += word;
+    if (!name.empty()) (out_ += ' ') += name;
+    end_line();
+  }
+
+  void write_vertex(const Mesh& mesh, const Plan& plan, Index v) {
+    out_ += 'v';
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (c < mesh.position.count)
+        append_component(out_, mesh.position, v, c);
+      else
+        out_ += " 0";
+    }
+    const Index w = plan.vertex_wedge[v];
+    if (plan.color && has(plan, w, kHasColor)) {
+      const bool alpha = plan.color->count == 4 && has(plan, w, kHasAlpha);
+      for (std::size_t c = 0; c < (alpha ? 4u : 3u); ++c) append_component(out_, *plan.color, w, c);
+    } else if (plan.weight && has(plan, w, kHasWeight)) {
+      append_component(out_, *plan.weight, w, 0);
+    }
+    out_ += '\n';
+  }
+
+  /// The bytes that tell two `vt` or `vn` lines apart.
+  static std::string tuple_key(const Plan& plan, const Attribute& a, Index w) {
+    std::string key(as_text(a.element(w)));
+    if (&a != plan.texcoord) return key;
+    if (plan.texw) key += as_text(plan.texw->element(w));
+    if (plan.present)
+      key += static_cast<char>(plan.present->data[w] & std::byte{kHasTexV | kHasTexW});
+    return key;
+  }
+
+  /// Writes each distinct tuple once, in order of first use; a cloud's one for each vertex.
+  Tuples write_tuples(const Mesh& mesh, const Plan& plan, const Attribute* a, ObjPresent what,
+                      std::uint64_t& count) {
+    Tuples out;
+    if (!a) return out;
+    out.line.assign(mesh.wedge_count(), 0);
+    if (plan.cloud) {
+      for (Index w = 0; w < mesh.wedge_count(); ++w) write_tuple(plan, *a, w);
+      return out;
+    }
+    std::vector<std::pair<std::uint64_t, Index>> order;  // hash of the tuple, wedge
+    for (Index w = 0; w < mesh.wedge_count(); ++w)
+      if (plan.used[w] && has(plan, w, what))
+        order.emplace_back(hash_of(as_bytes(tuple_key(plan, *a, w))), w);
+    std::ranges::sort(order, [&](const auto& x, const auto& y) {
+      if (x.first != y.first) return x.first < y.first;
+      const int key = tuple_key(plan, *a, x.second).compare(tuple_key(plan, *a, y.second));
+      return key != 0 ? key < 0 : x.second < y.second;
+    });
+    std::vector<Index> first_of(mesh.wedge_count(), kNone);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const bool same =
+          i > 0 && order[i].first == order[i - 1].first &&
+          tuple_key(plan, *a, order[i].second) == tuple_key(plan, *a, order[i - 1].second);
+      first_of[order[i].second] = same ? first_of[order[i - 1].second] : order[i].second;
+    }
+    for (Index w = 0; w < mesh.wedge_count(); ++w) {
+      if (first_of[w] == kNone) continue;
+      if (first_of[w] == w) {
+        write_tuple(plan, *a, w);
+        ++count;
+      }
+      out.line[w] = first_of[w] == w ? count : out.line[first_of[w]];
+    }
+    return out;
+  }
+
+  void write_tuple(const Plan& plan, const Attribute& a, Index w) {
+    const bool texcoord = &a == plan.texcoord;
+    out_ += texcoord ? "vt" : "vn";
+    std::size_t components = std::min<std::size_t>(a.count, 3);
+    if (texcoord && plan.present && !has(plan, w, kHasTexV)) components = 1;
+    for (std::size_t c = 0; c < components; ++c) append_component(out_, a, w, c);
+    if (texcoord && plan.texw && components == 2 && has(plan, w, kHasTexW))
+      append_component(out_, *plan.texw, w, 0);
+    out_ += '\n';
+  }
+
+  // Faces.
+
+  void write_faces(const Mesh& mesh, const Plan& plan, const std::string& mesh_object,
+                   const Tuples& texcoords, const Tuples& normals) {
+    Index group = kNone;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      const auto corners = mesh.face(f);
+      if (corners.empty()) {
+        drop("faces without a corner");
+        continue;
+      }
+      if (mesh.group_of(f) != group) {
+        group = mesh.group_of(f);
+        enter_group(mesh.groups[group], mesh_object);
+      }
+      if (plan.smoothing)
+        enter_smoothing(*plan.smoothing, f);
+      else if (smoothing_ > 0)
+        write_statement("s", "off"), smoothing_ = 0;
+      const FaceKind kind = mesh.groups[group].kind;
+      out_ += kind == FaceKind::polygons ? 'f' : kind == FaceKind::lines ? 'l' : 'p';
+      for (const Index w : corners) write_corner(mesh, w, texcoords, normals);
+      out_ += '\n';
+    }
+  }
+
+  void enter_group(const Group& group, const std::string& mesh_object) {
+    const obj::GroupName name = obj::split_group_name(group.name);
+    const std::string object = obj::clean_name(name.object);
+    change(object_, object.empty() ? mesh_object : object, "o");
+    change(group_, obj::clean_group(name.group), "g");
+    change(material_, group.material == kNone ? std::string() : material_names_[group.material],
+           "usemtl");
+  }
+
+  void change(std::string& state, std::string wanted, std::string_view word) {
+    if (state == wanted) return;
+    state = std::move(wanted);
+    write_statement(word, state);
+  }
+
+  void enter_smoothing(const Attribute& smoothing, Index face) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, smoothing.element(face).data(), sizeof value);
+    if (smoothing_ == value) return;
+    smoothing_ = value;
+    write_statement("s", value == 0 ? "off" : std::to_string(value));
+  }
+
+  void write_corner(const Mesh& mesh, Index w, const Tuples& texcoords, const Tuples& normals) {
+    out_ += ' ';
+    append_index(out_, vertex_count_ + mesh.vertex_of(w) + 1);
+    const std::uint64_t vt = texcoords.line.empty() ? 0 : texcoords.line[w];
+    const std::uint64_t vn = normals.line.empty() ? 0 : normals.line[w];
+    if (vt == 0 && vn == 0) return;
+    out_ += '/';
+    if (vt != 0) append_index(out_, vt);
+    if (vn == 0) return;
+    out_ += '/';
+    append_index(out_, vn);
+  }
+
+  const Model& model_;
+  ObjFiles files_;
+  std::string out_;
+  std::set<std::string> dropped_;
+  std::vector<std::string> material_names_;
+  // Lines written so far, and the state in force.
+  std::uint64_t vertex_count_ = 0, texcoord_count_ = 0, normal_count_ = 0;
+  std::string object_, group_, material_;
+  std::int64_t smoothing_ = -1;  ///< -1: nothing said yet
+};
+
+}  // namespace
+
+Result<ObjFiles> write_obj(const Model& model, std::string mtl_name) {
+  const bool refused =
+      !mtl_name.empty() && (!obj::companion_path(mtl_name) || obj::trimmed(mtl_name) != mtl_name);
+  if (refused)
+    return fail(ErrorCode::bad_argument, "not a name for a companion file", kNoOffset, mtl_name);
+  return ObjWriter(model, std::move(mtl_name)).write();
+}
+
+}  // namespace pstrip

@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "tests/formats/obj/support.h"
+#include "tests/support/paths.h"
+
+namespace pstrip::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string load(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+ReadFile beside(const fs::path& model) {
+  return [dir = model.parent_path()](const std::string& name) -> Result<Bytes> {
+    if (!fs::is_regular_file(dir / name)) return fail(ErrorCode::io, "no such file");
+    const std::string text = load(dir / name);
+    const ByteView bytes = as_bytes(text);
+    return Bytes(bytes.begin(), bytes.end());
+  };
+}
+
+/// Files that break the format: faces name lines that are not there.
+struct Broken {
+  std::string_view path, line, message;
+};
+constexpr Broken kBroken[] = {
+    {"nasty/broken-misc/assimp/malformed.obj", "line 28", "index 0"},
+    {"nasty/broken-obj/tinyobj/invalid-relative-texture-index.obj", "line 2", "index out of range"},
+    {"nasty/broken-obj/tinyobj/issue-140-zero-face-idx.obj", "line 16", "index 0"},
+    {"nasty/odd-obj/draco/test_wrong_attribute_mapping.obj", "line 4", "index out of range"},
+    {"textured/obj2gltf/box-incomplete-attributes/box-incomplete-positions.obj", "line 29",
+     "index out of range"},
+    {"textured/obj2gltf/box-incomplete-attributes/box-incomplete-uvs.obj", "line 17",
+     "index out of range"},
+    {"textured/obj2gltf/box-missing-attributes/box-missing-attributes.obj", "line 15",
+     "index out of range"},
+    {"textured/tinyobj/catmark_torus_creases0/catmark_torus_creases0.obj", "line 62",
+     "index out of range"},
+    {"textured/tinyobj/smoothing-group-two-squares/smoothing-group-two-squares.obj", "line 21",
+     "index out of range"},
+};
+
+/// What MANIFEST.tsv counted otherwise.
+struct Exception {
+  std::string_view path;
+  std::size_t vertices, triangles;
+  std::string_view why;
+};
+constexpr Exception kExceptions[] = {
+    {"nasty/broken-obj/tinyobj/test-nan.obj", 76, 36, "not counted for its 1.#IND"},
+};
+
+std::vector<fs::path> obj_files(const fs::path& root) {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    std::string extension = entry.path().extension().string();
+    std::ranges::transform(extension, extension.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    });
+    if (entry.is_regular_file() && extension == ".obj") out.push_back(entry.path());
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+std::map<std::string, std::pair<std::string, std::string>> manifest(const fs::path& root) {
+  std::map<std::string, std::pair<std::string, std::string>> out;
+  std::ifstream in(root / "MANIFEST.tsv");
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream row(line);
+    std::string path, vertices, faces;
+    std::getline(row, path, '\t');
+    std::getline(row, vertices, '\t');
+    std::getline(row, faces, '\t');
+    out[path] = {vertices, faces};
+  }
+  return out;
+}
+
+std::size_t triangles_of(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    if (mesh.groups[mesh.group_of(f)].kind == FaceKind::polygons && mesh.face(f).size() > 2)
+      count += mesh.face(f).size() - 2;
+  return count;
+}
+
+TEST(ObjModels, ReadAndSurviveTheRoundTripOrSayWhatIsWrong) {
+  const auto root = models_dir();
+  if (!root) GTEST_SKIP() << "no models folder";
+  const auto counts = manifest(*root);
+  std::size_t read_count = 0;
+  for (const fs::path& path : obj_files(*root)) {
+    const std::string name = fs::relative(path, *root).generic_string();
+    SCOPED_TRACE(name);
+    const std::string text = load(path);
+    const auto model = read_obj(as_bytes(text), beside(path));
+    const auto* broken = std::ranges::find(kBroken, name, &Broken::path);
+    if (broken != std::end(kBroken)) {
+      ASSERT_FALSE(model);
+      EXPECT_EQ(model.error().path, broken->line);
+      EXPECT_EQ(model.error().message, broken->message);
+      continue;
+    }
+    if (!model) {
+      ADD_FAILURE() << model.error().message << ", " << model.error().path;
+      continue;
+    }
+    ++read_count;
+    EXPECT_EQ(check_round_trip(*model), "");
+    const auto row = counts.find(name);
+    if (row == counts.end()) continue;
+    const Mesh& mesh = model->meshes.at(0);
+    const auto* exception = std::ranges::find(kExceptions, name, &Exception::path);
+    if (exception != std::end(kExceptions)) {
+      EXPECT_EQ(mesh.vertex_count(), exception->vertices) << exception->why;
+      EXPECT_EQ(triangles_of(mesh), exception->triangles) << exception->why;
+    } else {
+      EXPECT_EQ(std::to_string(mesh.vertex_count()), row->second.first);
+      EXPECT_EQ(std::to_string(triangles_of(mesh)), row->second.second);
+    }
+  }
+  EXPECT_GT(read_count, 0u);
+}
+
+}  // namespace
+}  // namespace pstrip::test
