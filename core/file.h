@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/bytes.h"
+#include "core/result.h"
+
+namespace pstrip {
+
+/// The bytes of a file, mapped where the system can and read otherwise. Moves, does not copy; the
+/// view stays valid as long as the object.
+class FileBytes {
+ public:
+  FileBytes() = default;
+  explicit FileBytes(Bytes owned) : owned_(std::move(owned)), view_(owned_) {}
+  FileBytes(FileBytes&& other) noexcept;
+  FileBytes& operator=(FileBytes&& other) noexcept;
+  ~FileBytes();
+
+  ByteView view() const { return view_; }
+
+ private:
+  friend Result<FileBytes> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
+  void* mapping_ = nullptr;
+  Bytes owned_;
+  ByteView view_;
+};
+
+/// Opens a regular file, or reads a pipe or a terminal to its end. "-" is standard input.
+///
+/// errors  io with the path and the system's words; over_limit beyond max_bytes
+Result<FileBytes> read_file(const std::filesystem::path& path,
+                            std::uint64_t max_bytes = ~std::uint64_t{0});
+
+/// A file that is to be written.
+struct OutputFile {
+  std::filesystem::path path;
+  ByteView bytes;
+};
+
+/// Writes all files or none: each to a temporary file beside its path first, then all are renamed.
+/// "-" is standard output, written last. Leaves no temporary file behind, whatever fails.
+///
+/// errors  io with the path and the system's words
+Result<void> write_files(const std::vector<OutputFile>& files);
+
+/// Removes the temporary files of a write_files() under way; safe to call from a signal handler.
+void remove_temporary_files() noexcept;
+
+}  // namespace pstrip

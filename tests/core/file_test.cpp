@@ -1,0 +1,64 @@
+#include "core/file.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace pstrip {
+namespace {
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "pstrips-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    dir_ = name;
+  }
+  void TearDown() override { std::filesystem::remove_all(dir_); }
+  std::size_t count() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(dir_), {}));
+  }
+  std::filesystem::path dir_;
+};
+
+TEST_F(Files, ComeBackAsWritten) {
+  for (const std::string text : {"", "abc", "\0\n\r"}) {
+    ASSERT_TRUE(write_files({{dir_ / "a", as_bytes(text)}}));
+    EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), text);
+  }
+  EXPECT_EQ(count(), 1u);
+}
+
+TEST_F(Files, ThatCannotAllBeWrittenAreNotWrittenAtAll) {
+  const auto done = write_files({{dir_ / "a", as_bytes("1")}, {dir_ / "no" / "b", as_bytes("2")}});
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::io);
+  EXPECT_EQ(done.error().path, (dir_ / "no" / "b").string());
+  EXPECT_EQ(count(), 0u);
+}
+
+TEST_F(Files, AFailedWriteKeepsWhatWasThere) {
+  ASSERT_TRUE(write_files({{dir_ / "a", as_bytes("old")}}));
+  ASSERT_FALSE(write_files({{dir_ / "a", as_bytes("new")}, {dir_, as_bytes("a folder")}}));
+  EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), "old");
+  EXPECT_EQ(count(), 1u);
+}
+
+TEST_F(Files, KeepTheirPermissions) {
+  ASSERT_TRUE(write_files({{dir_ / "a", as_bytes("old")}}));
+  std::filesystem::permissions(dir_ / "a", std::filesystem::perms(0640));
+  ASSERT_TRUE(write_files({{dir_ / "a", as_bytes("new")}}));
+  EXPECT_EQ(std::filesystem::status(dir_ / "a").permissions(), std::filesystem::perms(0640));
+}
+
+TEST_F(Files, SayWhyTheyCannotBeRead) {
+  EXPECT_EQ(read_file(dir_ / "none").error().code, ErrorCode::io);
+  EXPECT_EQ(read_file(dir_).error().message, "is a folder");
+  ASSERT_TRUE(write_files({{dir_ / "a", as_bytes("12345")}}));
+  EXPECT_EQ(read_file(dir_ / "a", 4).error().code, ErrorCode::over_limit);
+}
+
+}  // namespace
+}  // namespace pstrip
