@@ -1,0 +1,195 @@
+#include "formats/gltf/container.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace pstrip::gltf {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
+constexpr std::string_view kDigits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+constexpr std::array<std::int8_t, 256> digit_values() {
+  std::array<std::int8_t, 256> values{};
+  values.fill(-1);
+  for (std::size_t i = 0; i < kDigits.size(); ++i)
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
+  return values;
+}
+
+Result<Bytes> decode_base64(std::string_view text) {
+  static constexpr auto kValues = digit_values();
+  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
+  if (text.size() % 4 == 1) return fail(ErrorCode::corrupt, "base64 text of impossible length");
+  Bytes out(text.size() / 4 * 3 + (text.size() % 4 * 3) / 4);
+  std::uint32_t bits = 0;
+  int held = 0;
+  std::size_t n = 0;
+  for (const char c : text) {
+    const int value = kValues[static_cast<unsigned char>(c)];
+    if (value < 0) return fail(ErrorCode::corrupt, "not a base64 digit");
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    out[n++] = static_cast<std::byte>(bits >> held);
+  }
+  return out;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+/// "C:", "http:" … at the start.
+bool has_scheme(std::string_view uri) {
+  const std::size_t colon = uri.find(':');
+  return colon != std::string_view::npos && uri.find('/') > colon;
+}
+
+bool climbs_out(std::string_view path) {
+  int depth = 0;
+  while (!path.empty()) {
+    const std::size_t end = std::min(path.find('/'), path.size());
+    const std::string_view part = path.substr(0, end);
+    if (part == "..")
+      --depth;
+    else if (!part.empty() && part != ".")
+      ++depth;
+    if (depth < 0) return true;
+    path.remove_prefix(std::min(end + 1, path.size()));
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<Container> split(ByteView file) {
+  constexpr std::string_view kName = "glTF";
+  if (file.size() < kName.size() && kName.starts_with(as_text(file)))
+    return fail(ErrorCode::truncated, "ends before the file header", file.size());
+  ByteReader in(file);
+  Container out;
+  if (in.u32() != kMagic) {
+    out.json = as_text(file);
+    return out;
+  }
+  const std::uint32_t version = in.u32(), length = in.u32();
+  if (in.error()) return fail(ErrorCode::truncated, "ends inside the file header", file.size());
+  if (version != 2) return fail(ErrorCode::unsupported, "binary glTF of another version than 2", 4);
+  if (length < 12) return fail(ErrorCode::corrupt, "file length is below the header's", 8);
+  if (length > file.size())
+    return fail(ErrorCode::truncated, "ends before its announced length", file.size());
+  if (length < file.size()) return fail(ErrorCode::corrupt, "has bytes after its end", length);
+  for (bool first = true; first || in.remaining() > 0; first = false) {
+    const std::uint64_t start = in.offset();
+    const std::uint32_t size = in.u32(), type = in.u32();
+    const ByteView payload = in.take(size);
+    // The length above is met, so what is missing here no further byte would bring.
+    if (in.error()) return fail(ErrorCode::corrupt, "chunk reaches past the file", start);
+    if (first != (type == kJson))
+      return fail(ErrorCode::corrupt, "the first chunk, and only that, must be JSON", start);
+    if (type == kJson) {
+      out.json = as_text(payload);
+      out.json_offset = start + 8;
+    } else if (type == kBin) {
+      if (out.bin) return fail(ErrorCode::corrupt, "second BIN chunk", start);
+      out.bin = payload;
+    } else {
+      const ByteView chunk = file.subspan(start, 8 + payload.size());
+      out.other_chunks.insert(out.other_chunks.end(), chunk.begin(), chunk.end());
+    }
+  }
+  return out;
+}
+
+Result<Bytes> join(std::string_view json, ByteView bin, ByteView other_chunks) {
+  const auto padded = [](std::uint64_t size) { return (size + 3) / 4 * 4; };
+  const std::uint64_t total = 12 + 8 + padded(json.size()) +
+                              (bin.empty() ? 0 : 8 + padded(bin.size())) + other_chunks.size();
+  if (total > std::numeric_limits<std::uint32_t>::max())
+    return fail(ErrorCode::over_limit, "a .glb file cannot reach 4 GiB");
+  ByteWriter out;
+  for (const std::uint64_t word : {std::uint64_t{kMagic}, std::uint64_t{2}, total})
+    out.u32(static_cast<std::uint32_t>(word));
+  out.u32(static_cast<std::uint32_t>(padded(json.size())));
+  out.u32(kJson);
+  out.bytes(as_bytes(json));
+  while (out.size() % 4 != 0) out.u8(' ');
+  if (!bin.empty()) {
+    out.u32(static_cast<std::uint32_t>(padded(bin.size())));
+    out.u32(kBin);
+    out.bytes(bin);
+    out.align(4);
+  }
+  out.bytes(other_chunks);
+  return std::move(out).take();
+}
+
+Result<DataUri> decode_data_uri(std::string_view uri) {
+  constexpr std::string_view kEncoding = ";base64";
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) return fail(ErrorCode::corrupt, "data URI without a comma");
+  std::string_view head = uri.substr(5, comma - 5);
+  if (!head.ends_with(kEncoding))
+    return fail(ErrorCode::unsupported, "data URI in another encoding than base64");
+  head.remove_suffix(kEncoding.size());
+  Result<Bytes> data = decode_base64(uri.substr(comma + 1));
+  if (!data) return tl::unexpected(std::move(data).error());
+  return DataUri{std::string(head.substr(0, head.find(';'))), std::move(*data)};
+}
+
+std::string base64(ByteView data) {
+  std::string out;
+  out.reserve((data.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < data.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, data.size() - i);
+    std::uint32_t bits = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8 | (k < n ? std::to_integer<std::uint32_t>(data[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+Result<std::string> decode_relative_uri(std::string_view uri) {
+  if (has_scheme(uri)) return fail(ErrorCode::unsupported, "absolute URI");
+  std::string path;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    char c = uri[i];
+    if (c == '%') {
+      const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
+      const int low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
+      if (high < 0 || low < 0) return fail(ErrorCode::corrupt, "malformed percent sign in a URI");
+      c = static_cast<char>(high * 16 + low);
+      i += 2;
+    }
+    if (c == '\0') return fail(ErrorCode::corrupt, "zero byte in a URI");
+    path += c == '\\' ? '/' : c;  // a backslash climbs out of folders as well on some systems
+  }
+  if (path.empty()) return fail(ErrorCode::corrupt, "empty URI");
+  if (path.front() == '/' || has_scheme(path) || climbs_out(path))
+    return fail(ErrorCode::unsupported, "URI leaves the model's folder");
+  return path;
+}
+
+std::string percent_encode(std::string_view path) {
+  constexpr std::string_view kPlain = "-._~/!$&'()*+,;=@", kHex = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : path) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool letter = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+    if (letter || kPlain.find(c) != std::string_view::npos)
+      out += c;
+    else
+      out += {'%', kHex[byte >> 4], kHex[byte & 15]};
+  }
+  return out;
+}
+
+}  // namespace pstrip::gltf

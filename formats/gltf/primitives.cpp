@@ -1,0 +1,391 @@
+#include "formats/gltf/primitives.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace pstrip::gltf {
+namespace {
+
+tl::unexpected<Error> refuse(ErrorCode code, std::string message, std::string path) {
+  return fail(code, std::move(message), kNoOffset, std::move(path));
+}
+
+/// For each element the first one with the same bytes. Sorted rather than hashed alone, so that
+/// no choice of positions makes it slow. cost O(n log n)
+std::vector<Index> first_equals(const Attribute& list) {
+  struct Key {
+    std::uint64_t hash;
+    Index i;
+  };
+  const std::size_t size = list.element_bytes();
+  std::vector<Key> keys(list.elements());
+  for (Index i = 0; i < keys.size(); ++i) {
+    std::uint64_t hash = 0;
+    for (std::size_t at = 0; at < size; at += 4) {
+      std::uint32_t word = 0;
+      std::memcpy(&word, list.data.data() + i * size + at, std::min<std::size_t>(4, size - at));
+      hash = (hash ^ word) * 0x9e3779b97f4a7c15;  // 2^64 / golden ratio: spreads close values
+      hash ^= hash >> 29;
+    }
+    keys[i] = {hash, i};
+  }
+  const auto compare = [&](const Key& a, const Key& b) {
+    return std::memcmp(list.data.data() + a.i * size, list.data.data() + b.i * size, size);
+  };
+  std::ranges::sort(keys, [&](const Key& a, const Key& b) {
+    if (a.hash != b.hash) return a.hash < b.hash;
+    const int order = compare(a, b);
+    return order != 0 ? order < 0 : a.i < b.i;
+  });
+  std::vector<Index> first(keys.size());
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const bool same =
+        k > 0 && keys[k].hash == keys[k - 1].hash && compare(keys[k], keys[k - 1]) == 0;
+    first[keys[k].i] = same ? first[keys[k - 1].i] : keys[k].i;
+  }
+  return first;
+}
+
+/// Turns positions with one element a wedge into vertices, numbered as they first appear.
+void weld(Mesh& mesh) {
+  const std::size_t size = mesh.position.element_bytes();
+  std::vector<Index> vertex = first_equals(mesh.position);
+  Bytes& data = mesh.position.data;
+  Index vertices = 0;
+  for (Index w = 0; w < vertex.size(); ++w) {
+    if (vertex[w] == w) {
+      std::memmove(data.data() + vertices * size, data.data() + w * size, size);
+      vertex[w] = vertices++;
+    } else {
+      vertex[w] = vertex[vertex[w]];
+    }
+  }
+  data.resize(vertices * size);
+  mesh.wedge_vertex = std::move(vertex);
+}
+
+FaceKind kind_of(Mode mode) {
+  switch (mode) {
+    case Mode::points:
+      return FaceKind::points;
+    case Mode::lines:
+    case Mode::line_loop:
+    case Mode::line_strip:
+      return FaceKind::lines;
+    default:
+      return FaceKind::polygons;
+  }
+}
+
+/// Appends the faces of one primitive over `count` indices; `wedge(i)` is the i-th.
+class FaceWriter {
+ public:
+  FaceWriter(Mesh& mesh, Index group) : mesh_(mesh), group_(group) {}
+
+  template <class Wedge>
+  void write(Mode mode, std::size_t count, Wedge&& wedge) {
+    switch (mode) {
+      case Mode::points:
+        for (std::size_t i = 0; i < count; ++i) face({wedge(i)});
+        break;
+      case Mode::lines:
+        for (std::size_t i = 0; i + 1 < count; i += 2) face({wedge(i), wedge(i + 1)});
+        break;
+      case Mode::line_strip:
+      case Mode::line_loop:
+        if (count < 2) break;
+        for (std::size_t i = 0; i < count; ++i) mesh_.corners.push_back(wedge(i));
+        if (mode == Mode::line_loop) mesh_.corners.push_back(wedge(0));
+        end_face();
+        break;
+      case Mode::triangles:
+        for (std::size_t i = 0; i + 2 < count; i += 3) face({wedge(i), wedge(i + 1), wedge(i + 2)});
+        break;
+      case Mode::strip:
+        for (std::size_t i = 0; i + 2 < count; ++i) {
+          const Index a = wedge(i), b = wedge(i + 1), c = wedge(i + 2);
+          if (a == b || b == c || a == c) continue;
+          if (i % 2 == 0)
+            face({a, b, c});
+          else
+            face({b, a, c});
+        }
+        break;
+      case Mode::fan:
+        for (std::size_t i = 1; i + 1 < count; ++i) face({wedge(0), wedge(i), wedge(i + 1)});
+        break;
+    }
+  }
+
+ private:
+  void face(std::initializer_list<Index> corners) {
+    mesh_.corners.insert(mesh_.corners.end(), corners);
+    end_face();
+  }
+  void end_face() {
+    mesh_.face_group.push_back(group_);
+    if (mesh_.groups[group_].kind != FaceKind::polygons)
+      mesh_.face_first.push_back(static_cast<Index>(mesh_.corners.size()));
+  }
+  Mesh& mesh_;
+  Index group_;
+};
+
+/// At most how many corners a primitive of `count` indices makes.
+std::uint64_t most_corners(Mode mode, std::uint64_t count) {
+  const bool chained = mode == Mode::strip || mode == Mode::fan;
+  return chained ? 3 * (count > 2 ? count - 2 : 0) : count + (mode == Mode::line_loop ? 1 : 0);
+}
+
+bool leaves_indices_over(Mode mode, std::uint64_t count) {
+  if (mode == Mode::triangles) return count % 3 != 0;
+  return mode == Mode::lines && count % 2 != 0;
+}
+
+/// A model's mesh in the making.
+struct Draft {
+  Index mesh = 0;                                   ///< in the model
+  std::map<std::vector<Index>, Index> first_wedge;  ///< of each tuple of accessors
+};
+
+class MeshReader {
+ public:
+  MeshReader(Data& data, const Document& document, const Limits& limits, Budget& budget,
+             std::vector<Mesh>& out, std::vector<std::string>& dropped)
+      : data_(data),
+        document_(document),
+        budget_(budget),
+        out_(out),
+        dropped_(dropped),
+        limits_(limits),
+        wedges_left_(limits.wedges),
+        corners_left_(limits.corners) {}
+
+  Result<PrimitiveMap> read() {
+    for (Index m = 0; m < document_.meshes.size(); ++m)
+      if (const Result<void> read = read_mesh(m); !read) return tl::unexpected(read.error());
+    return std::move(map_);
+  }
+
+ private:
+  Result<void> read_mesh(Index m) {
+    const GltfMesh& in = document_.meshes[m];
+    const std::size_t first_mesh = out_.size();
+    drafts_.clear();
+    map_.meshes.emplace_back();
+    for (std::size_t p = 0; p < in.primitives.size(); ++p) {
+      const std::string path = "/meshes/" + std::to_string(m) + "/primitives/" + std::to_string(p);
+      if (auto read = read_primitive(in, in.primitives[p], path); !read) return read;
+    }
+    for (std::size_t i = first_mesh; i < out_.size(); ++i) {
+      weld(out_[i]);
+      if (out_[i].vertex_count() > limits_.vertices - vertices_)
+        return refuse(ErrorCode::over_limit, "too many vertices", "/meshes/" + std::to_string(m));
+      vertices_ += out_[i].vertex_count();
+      canonicalize(out_[i]);
+    }
+    return {};
+  }
+
+  Result<void> check(const Primitive& in, const std::string& path) const {
+    const auto position =
+        std::ranges::find(in.attributes, "POSITION", [](const auto& a) { return a.first; });
+    const Accessor& positions = document_.accessors[position->second];
+    if (positions.components != 3 || positions.type == ComponentType::u32)
+      return refuse(ErrorCode::corrupt, "positions are not of a type for them", path);
+    bool has_bytes = in.indices == kNone || document_.accessors[in.indices].view != kNone;
+    for (const auto& [name, accessor] : in.attributes) {
+      if (document_.accessors[accessor].count != positions.count)
+        return refuse(ErrorCode::corrupt, "attributes of different lengths",
+                      path + "/attributes/" + name);
+      has_bytes &= document_.accessors[accessor].view != kNone;
+    }
+    if (in.compressed && !has_bytes)
+      return refuse(ErrorCode::unsupported, "Draco compression without a fallback", path);
+    return {};
+  }
+
+  /// The mesh for primitives of this layout; a new one when there is none yet.
+  Draft& draft_for(const GltfMesh& mesh, const Primitive& in) {
+    std::string layout =
+        std::to_string(static_cast<int>(kind_of(in.mode))) + ' ' + std::to_string(in.targets);
+    for (const auto& [name, i] : in.attributes) {
+      const Accessor& a = document_.accessors[i];
+      for (const int number : {static_cast<int>(name.size()), static_cast<int>(a.type),
+                               int{a.components}, int{a.rows}, int{a.normalized}})
+        layout += ' ' + std::to_string(number);
+      layout += name;
+    }
+    const auto [at, is_new] = drafts_.try_emplace(std::move(layout));
+    if (is_new) {
+      at->second.mesh = static_cast<Index>(out_.size());
+      start_mesh(mesh, in);
+    }
+    return at->second;
+  }
+
+  void start_mesh(const GltfMesh& gltf_mesh, const Primitive& in) {
+    Mesh& mesh = out_.emplace_back();
+    PrimitiveMap::Layout& layout = map_.layouts.emplace_back();
+    layout.targets = in.targets;
+    mesh.name = gltf_mesh.name;
+    if (kind_of(in.mode) != FaceKind::polygons) mesh.face_first.push_back(0);
+    for (const auto& [name, i] : in.attributes) {
+      const Accessor& a = document_.accessors[i];
+      Attribute attribute{name, a.type, a.components, a.normalized, {}};
+      if (a.rows == 2) layout.mat2.push_back(name);
+      if (name == "POSITION")
+        mesh.position = std::move(attribute);
+      else
+        mesh.wedge_attributes.push_back(std::move(attribute));
+    }
+  }
+
+  /// Appends the elements of the primitive's accessors, unless they are there.
+  Result<Index> add_wedges(const Primitive& in, Draft& draft, const std::string& path) {
+    std::vector<Index> key;
+    for (const auto& attribute : in.attributes) key.push_back(attribute.second);
+    if (const auto known = draft.first_wedge.find(key); known != draft.first_wedge.end())
+      return known->second;
+    Mesh& mesh = out_[draft.mesh];
+    const std::uint64_t count = document_.accessors[key.front()].count;
+    const std::size_t first = mesh.position.elements();
+    if (count > wedges_left_ || count > kMaxCount - first)
+      return refuse(ErrorCode::over_limit, "too many wedges", path);
+    wedges_left_ -= count;
+    std::size_t next = 0;
+    for (const auto& [name, accessor] : in.attributes) {
+      Result<Bytes> bytes = read_attribute(data_, document_, accessor);
+      if (!bytes) return tl::unexpected(std::move(bytes).error());
+      Bytes& all = name == "POSITION" ? mesh.position.data : mesh.wedge_attributes[next++].data;
+      if (all.empty())
+        all = std::move(*bytes);
+      else
+        all.insert(all.end(), bytes->begin(), bytes->end());
+    }
+    draft.first_wedge.emplace(std::move(key), static_cast<Index>(first));
+    return static_cast<Index>(first);
+  }
+
+  Result<void> read_primitive(const GltfMesh& gltf_mesh, const Primitive& in,
+                              const std::string& path) {
+    if (!in.has_position()) {
+      map_.meshes.back().emplace_back();
+      dropped_.push_back("faces of " + path + ", which has no positions");
+      return {};
+    }
+    if (auto checked = check(in, path); !checked) return checked;
+    if (++primitives_ > limits_.meshes)
+      return refuse(ErrorCode::over_limit, "too many primitives", path);
+    Draft& draft = draft_for(gltf_mesh, in);
+    const Result<Index> first = add_wedges(in, draft, path);
+    if (!first) return tl::unexpected(first.error());
+    Mesh& mesh = out_[draft.mesh];
+    const auto group = static_cast<Index>(mesh.groups.size());
+    mesh.groups.push_back({.name = {}, .material = in.material, .kind = kind_of(in.mode)});
+    map_.meshes.back().push_back({draft.mesh, group});
+
+    const std::uint64_t vertices = document_.accessors[in.attributes.front().second].count;
+    const bool indexed = in.indices != kNone;
+    const std::uint64_t count = indexed ? document_.accessors[in.indices].count : vertices;
+    const std::uint64_t corners = most_corners(in.mode, count);
+    if (leaves_indices_over(in.mode, count))
+      dropped_.push_back("indices beyond whole faces of " + path);
+    if (corners > corners_left_ || corners > kMaxCount - mesh.corners.size())
+      return refuse(ErrorCode::over_limit, "too many face corners", path);
+    corners_left_ -= corners;
+    std::vector<Index> indices;
+    if (indexed) {
+      auto read = read_indices(data_, document_, in.indices, vertices);
+      if (!read) return tl::unexpected(std::move(read).error());
+      indices = std::move(*read);
+    }
+    if (!budget_.take(corners * 2 * sizeof(Index)))
+      return refuse(ErrorCode::over_limit, "faces exceed the memory limit", path);
+    FaceWriter faces(mesh, group);
+    if (indexed)
+      faces.write(in.mode, indices.size(), [&](std::size_t i) { return *first + indices[i]; });
+    else
+      faces.write(in.mode, vertices, [&](std::size_t i) { return *first + static_cast<Index>(i); });
+    return {};
+  }
+
+  Data& data_;
+  const Document& document_;
+  Budget& budget_;
+  std::vector<Mesh>& out_;
+  std::vector<std::string>& dropped_;
+  const Limits& limits_;
+  std::uint64_t wedges_left_, corners_left_, vertices_ = 0, primitives_ = 0;
+  std::map<std::string, Draft> drafts_;
+  PrimitiveMap map_;
+};
+
+}  // namespace
+
+Result<PrimitiveMap> read_meshes(Data& data, const Document& document, const Limits& limits,
+                                 Budget& budget, std::vector<Mesh>& out,
+                                 std::vector<std::string>& dropped) {
+  return MeshReader(data, document, limits, budget, out, dropped).read();
+}
+
+Bytes PrimitiveMap::write() const {
+  ByteWriter out;
+  out.u32(static_cast<std::uint32_t>(meshes.size()));
+  for (const auto& places : meshes) {
+    out.u32(static_cast<std::uint32_t>(places.size()));
+    for (const Place& place : places) {
+      out.u32(place.mesh);
+      out.u32(place.group);
+    }
+  }
+  out.u32(static_cast<std::uint32_t>(layouts.size()));
+  for (const Layout& layout : layouts) {
+    out.u32(layout.targets);
+    out.u32(static_cast<std::uint32_t>(layout.mat2.size()));
+    for (const std::string& name : layout.mat2) out.string(name);
+  }
+  return std::move(out).take();
+}
+
+Result<PrimitiveMap> PrimitiveMap::read(ByteView bytes) {
+  ByteReader in(bytes);
+  PrimitiveMap out;
+  out.meshes.resize(in.count(4));
+  for (auto& places : out.meshes) {
+    places.resize(in.count(8));
+    for (Place& place : places) {
+      place.mesh = in.u32();
+      place.group = in.u32();
+    }
+  }
+  out.layouts.resize(in.count(8));
+  for (Layout& layout : out.layouts) {
+    layout.targets = in.u32();
+    layout.mat2.resize(in.count(4));
+    for (std::string& name : layout.mat2) name = in.string(bytes.size());
+  }
+  in.expect_end();
+  if (in.error()) return tl::unexpected(*in.error());
+  return out;
+}
+
+bool PrimitiveMap::fits(const std::vector<Mesh>& model) const {
+  if (layouts.size() != model.size()) return false;
+  std::vector<std::vector<bool>> placed;
+  for (const Mesh& mesh : model) placed.emplace_back(mesh.groups.size());
+  for (const auto& places : meshes)
+    for (const Place& place : places) {
+      if (place.mesh == kNone) continue;
+      if (place.mesh >= model.size() || place.group >= model[place.mesh].groups.size() ||
+          placed[place.mesh][place.group])
+        return false;
+      placed[place.mesh][place.group] = true;
+    }
+  return std::ranges::all_of(placed, [](const auto& groups) {
+    return std::ranges::all_of(groups, [](bool is_placed) { return is_placed; });
+  });
+}
+
+}  // namespace pstrip::gltf

@@ -1,0 +1,194 @@
+#include "formats/gltf/topology.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pstrip::gltf {
+namespace {
+
+using Triangle = std::array<Index, 3>;
+
+/// The faces of each group, in face order.
+struct FacesByGroup {
+  std::vector<Index> first;  ///< into `faces`, one a group and one past the end
+  std::vector<Index> faces;
+};
+
+FacesByGroup sort_faces(const Mesh& mesh) {
+  FacesByGroup out;
+  out.first.assign(mesh.groups.size() + 1, 0);
+  for (Index f = 0; f < mesh.face_count(); ++f) ++out.first[mesh.group_of(f) + 1];
+  for (std::size_t g = 1; g < out.first.size(); ++g) out.first[g] += out.first[g - 1];
+  out.faces.resize(mesh.face_count());
+  std::vector<Index> next(out.first.begin(), out.first.end() - 1);
+  for (Index f = 0; f < mesh.face_count(); ++f) out.faces[next[mesh.group_of(f)]++] = f;
+  return out;
+}
+
+/// Joins triangles that follow each other as a strip's do. [gltf.h, GltfTopology]
+class StripBuilder {
+ public:
+  void add(const Triangle& t) {
+    if (strip_.empty()) {
+      first_ = t;
+      strip_ = {t[0], t[1], t[2]};
+      return;
+    }
+    if (!extend(t) && !(strip_.size() == 3 && turn_first(t) && extend(t))) {
+      end_strip();
+      add(t);
+    }
+  }
+  std::vector<std::vector<Index>> take() && {
+    end_strip();
+    return std::move(strips_);
+  }
+
+ private:
+  /// Appends the third corner when the triangle stands on the strip's last edge.
+  bool extend(const Triangle& t) {
+    Index a = strip_[strip_.size() - 2], b = strip_.back();
+    if (strip_.size() % 2 != 0) std::swap(a, b);  // every second triangle is wound the other way
+    for (std::size_t k = 0; k < 3; ++k)
+      if (t[k] == a && t[(k + 1) % 3] == b) {
+        strip_.push_back(t[(k + 2) % 3]);
+        return true;
+      }
+    return false;
+  }
+  /// Turns the strip's only triangle so that the next one shares its last edge, if it can be.
+  bool turn_first(const Triangle& next) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t n = 0; n < 3; ++n)
+        if (next[n] == first_[(k + 2) % 3] && next[(n + 1) % 3] == first_[(k + 1) % 3]) {
+          strip_ = {first_[k], first_[(k + 1) % 3], first_[(k + 2) % 3]};
+          return true;
+        }
+    return false;
+  }
+  void end_strip() {
+    if (!strip_.empty()) strips_.push_back(std::move(strip_));
+    strip_ = {};
+  }
+
+  Triangle first_{};
+  std::vector<Index> strip_;
+  std::vector<std::vector<Index>> strips_;
+};
+
+/// One strip: between two parts the last and the next index are repeated, so that all triangles
+/// between are degenerate, and once more where the next part would start on an odd place.
+std::vector<Index> join(const std::vector<std::vector<Index>>& strips) {
+  std::vector<Index> out;
+  for (const auto& strip : strips) {
+    if (!out.empty()) {
+      out.insert(out.end(), {out.back(), strip.front()});
+      if (out.size() % 2 != 0) out.push_back(strip.front());
+    }
+    out.insert(out.end(), strip.begin(), strip.end());
+  }
+  return out;
+}
+
+class GroupWriter {
+ public:
+  GroupWriter(const Mesh& mesh, GltfTopology topology) : mesh_(mesh), topology_(topology) {}
+
+  std::vector<IndexList> write(std::span<const Index> faces, FaceKind kind) {
+    if (faces.empty()) return {};
+    if (kind == FaceKind::points) return points(faces);
+    if (kind == FaceKind::lines) return lines(faces);
+    return topology_ == GltfTopology::triangles ? triangles(faces) : strips(faces);
+  }
+  void report(std::vector<std::string>& dropped) const {
+    const auto note = [&](std::uint64_t count, const char* what) {
+      if (count > 0) dropped.push_back(std::to_string(count) + ' ' + what);
+    };
+    note(small_, "faces with too few corners");
+    note(degenerate_, "degenerate triangles, which strips cannot show");
+    note(cut_, "polylines, cut into segments");
+  }
+
+ private:
+  template <class Visit>
+  void each_triangle(std::span<const Index> faces, Visit&& visit) {
+    for (const Index f : faces) {
+      const auto corners = mesh_.face(f);
+      if (corners.size() < 3) ++small_;
+      for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+        visit(Triangle{corners[0], corners[i], corners[i + 1]});
+    }
+  }
+  std::vector<IndexList> triangles(std::span<const Index> faces) {
+    IndexList out{Mode::triangles, {}};
+    each_triangle(faces, [&](const Triangle& t) {
+      out.indices.insert(out.indices.end(), t.begin(), t.end());
+    });
+    return non_empty(std::move(out));
+  }
+  std::vector<IndexList> strips(std::span<const Index> faces) {
+    StripBuilder builder;
+    each_triangle(faces, [&](const Triangle& t) {
+      if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2])
+        ++degenerate_;
+      else
+        builder.add(t);
+    });
+    std::vector<std::vector<Index>> strips = std::move(builder).take();
+    if (topology_ == GltfTopology::joined_strips) return non_empty({Mode::strip, join(strips)});
+    std::vector<IndexList> out;
+    for (auto& strip : strips) out.push_back({Mode::strip, std::move(strip)});
+    return out;
+  }
+  std::vector<IndexList> points(std::span<const Index> faces) {
+    IndexList out{Mode::points, {}};
+    for (const Index f : faces) {
+      const auto corners = mesh_.face(f);
+      out.indices.insert(out.indices.end(), corners.begin(), corners.end());
+    }
+    return non_empty(std::move(out));
+  }
+  std::vector<IndexList> lines(std::span<const Index> faces) {
+    if (faces.size() == 1 && mesh_.face(faces.front()).size() > 2) {
+      const auto corners = mesh_.face(faces.front());
+      return {{Mode::line_strip, {corners.begin(), corners.end()}}};
+    }
+    IndexList out{Mode::lines, {}};
+    for (const Index f : faces) {
+      const auto corners = mesh_.face(f);
+      if (corners.size() < 2) ++small_;
+      if (corners.size() > 2) ++cut_;
+      for (std::size_t i = 1; i < corners.size(); ++i)
+        out.indices.insert(out.indices.end(), {corners[i - 1], corners[i]});
+    }
+    return non_empty(std::move(out));
+  }
+  static std::vector<IndexList> non_empty(IndexList list) {
+    if (list.indices.empty()) return {};
+    std::vector<IndexList> out;
+    out.push_back(std::move(list));
+    return out;
+  }
+
+  const Mesh& mesh_;
+  GltfTopology topology_;
+  std::uint64_t small_ = 0, degenerate_ = 0, cut_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology topology,
+                                                std::vector<std::string>& dropped) {
+  const FacesByGroup sorted = sort_faces(mesh);
+  GroupWriter writer(mesh, topology);
+  std::vector<std::vector<IndexList>> out;
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
+    const auto faces =
+        std::span(sorted.faces).subspan(sorted.first[g], sorted.first[g + 1] - sorted.first[g]);
+    out.push_back(writer.write(faces, mesh.groups[g].kind));
+  }
+  writer.report(dropped);
+  return out;
+}
+
+}  // namespace pstrip::gltf

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/mesh.h"
+#include "formats/gltf/document.h"
+#include "formats/gltf/gltf.h"
+
+namespace pstrip::gltf {
+
+/// The indices of one glTF primitive, wedges of the mesh.
+struct IndexList {
+  Mode mode = Mode::triangles;
+  std::vector<Index> indices;
+};
+
+/// The primitives of each group: none when it has no face that glTF can show.
+///
+/// dropped  receives what is lost: faces of fewer than three corners among polygons, degenerate
+///          triangles in strips, polylines cut into segments
+/// cost     O(corners)
+std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology topology,
+                                                std::vector<std::string>& dropped);
+
+}  // namespace pstrip::gltf

@@ -1,0 +1,111 @@
+// Every glTF file of the models folder reads and comes back the same, or says clearly why not.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+
+#include "formats/gltf/gltf.h"
+#include "tests/formats/gltf/files.h"
+#include "tests/support/paths.h"
+
+namespace pstrip {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> gltf_files(const fs::path& dir) {
+  std::vector<fs::path> out;
+  for (const auto& entry : fs::recursive_directory_iterator(dir))
+    if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
+      out.push_back(entry.path());
+  std::ranges::sort(out);
+  return out;
+}
+
+/// Vertices and faces by path, of the rows that have them.
+std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> read_manifest(const fs::path& dir) {
+  std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> out;
+  std::ifstream file(dir / "MANIFEST.tsv");
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream row(line);
+    std::string path, vertices, faces;
+    std::getline(row, path, '\t');
+    std::getline(row, vertices, '\t');
+    std::getline(row, faces, '\t');
+    if (vertices.find_first_not_of("0123456789") == std::string::npos && !vertices.empty())
+      out[path] = {std::stoull(vertices), std::stoull(faces)};
+  }
+  return out;
+}
+
+std::uint64_t count_polygons(const Model& model) {
+  std::uint64_t out = 0;
+  for (const Mesh& mesh : model.meshes)
+    for (Index f = 0; f < mesh.face_count(); ++f)
+      out += mesh.groups[mesh.group_of(f)].kind == FaceKind::polygons;
+  return out;
+}
+
+std::uint64_t count_wedges(const Model& model) {
+  std::uint64_t out = 0;
+  for (const Mesh& mesh : model.meshes) out += mesh.wedge_count();
+  return out;
+}
+
+void expect_round_trip(const Model& model, const GltfWriteOptions& options) {
+  const auto written = write_gltf(model, options);
+  ASSERT_TRUE(written) << written.error().message;
+  if (!written->dropped.empty()) {  // a text file has no chunks
+    ASSERT_FALSE(options.binary);
+    ASSERT_EQ(written->dropped, std::vector<std::string>{"unknown chunks of the .glb file"});
+    return;
+  }
+  const auto again = read_gltf(written->main, test::among(written->others));
+  ASSERT_TRUE(again) << again.error().message << ' ' << again.error().path;
+  ASSERT_EQ(again->meshes.size(), model.meshes.size());
+  for (std::size_t m = 0; m < model.meshes.size(); ++m)
+    EXPECT_TRUE(again->meshes[m] == model.meshes[m]) << "mesh " << m;
+  EXPECT_TRUE(again->scene == model.scene);
+}
+
+TEST(GltfModels, ReadAndComeBackOrSayWhyNot) {
+  const auto dir = test::models_dir();
+  if (!dir) GTEST_SKIP() << "no models folder";
+  const auto manifest = read_manifest(*dir);
+  int read_count = 0, broken = 0;
+  for (const fs::path& path : gltf_files(*dir)) {
+    const std::string name = fs::relative(path, *dir).generic_string();
+    SCOPED_TRACE(name);
+    const auto model = read_gltf(test::load(path), test::beside(path));
+    if (!model) {
+      EXPECT_FALSE(model.error().message.empty());
+      const bool excused =
+          model.error().code == ErrorCode::unsupported || name.starts_with("nasty/");
+      EXPECT_TRUE(excused) << model.error().message << ' ' << model.error().path;
+      if (std::getenv("VERBOSE"))
+        std::printf("%s: %d %s %s\n", name.c_str(), int(model.error().code),
+                    model.error().message.c_str(), model.error().path.c_str());
+      ++broken;
+      continue;
+    }
+    ++read_count;
+    for (const Mesh& mesh : model->meshes) ASSERT_EQ(find_inconsistency(mesh), "");
+    expect_round_trip(*model, {.binary = true});
+    expect_round_trip(*model, {.binary = false});
+    if (const auto row = manifest.find(name);
+        row != manifest.end() && !name.starts_with("nasty/")) {
+      // The manifest counts an accessor once that several meshes share.
+      EXPECT_EQ(count_polygons(*model), row->second.second);
+      EXPECT_GE(count_wedges(*model), row->second.first);
+    }
+  }
+  std::printf("%d read, %d refused\n", read_count, broken);
+}
+
+}  // namespace
+}  // namespace pstrip
