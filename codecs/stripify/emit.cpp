@@ -19,7 +19,7 @@ class Emitter {
 
   Strips run() {
     for (const Index t : triangles_by_group())
-      if (!done_[t]) emit_strip_through(t);
+      if (!done_[t] && is_end(t)) emit_strip_from(t);
     if (!strips_.empty()) strips_.pop_back();  // the last restart
     return std::move(strips_);
   }
@@ -41,35 +41,29 @@ class Emitter {
     return kNone;
   }
 
-  // The half-edges over which the strip leaves each triangle from `exit` on.
-  void follow(Index exit, std::vector<Index>& exits) const {
-    exits.clear();
+  // Finds the half-edges over which the strip leaves each triangle from `exit` on.
+  void follow(Index exit) {
+    exits_.clear();
     while (exit != kNone) {
-      exits.push_back(exit);
+      exits_.push_back(exit);
       const Index entry = graph_.opposite[exit];
       exit = exit_of(triangle_of(entry), entry);
     }
   }
 
-  void emit_strip_through(Index t) {
-    Index exit = exit_of(t, kNone);
+  bool is_end(Index t) const { return links_[3 * t] + links_[3 * t + 1] + links_[3 * t + 2] < 2; }
+
+  void emit_strip_from(Index end) {
+    const Index exit = exit_of(end, kNone);
     if (exit == kNone) {
-      done_[t] = true;
-      const auto corners = input_.triangles.subspan(std::size_t{3} * t, 3);
+      const auto corners = input_.triangles.subspan(std::size_t{3} * end, 3);
       strips_.insert(strips_.end(), corners.begin(), corners.end());
       strips_.push_back(kRestart);
       return;
     }
-    if (exit_of(t, exit) != kNone) {  // t is inside: go to one end first
-      follow(exit, exits_);
-      exit = graph_.opposite[exits_.back()];
-    }
-    follow(exit, exits_);
-    const bool backwards_is_cheaper = repeats_at_start(false) > repeats_at_start(true);
-    const bool same = repeats_at_start(false) == repeats_at_start(true);
-    const bool lower_at_end =
-        triangle_of(graph_.opposite[exits_.back()]) < triangle_of(exits_.front());
-    if (backwards_is_cheaper || (same && lower_at_end)) reverse();
+    follow(exit);
+    done_[triangle_of(graph_.opposite[exits_.back()])] = true;
+    if (repeats_at_start(false) > repeats_at_start(true)) reverse();
     write();
   }
 
@@ -90,14 +84,12 @@ class Emitter {
 
   void write() {
     const Index start = exits_.front();
-    done_[triangle_of(start)] = true;
     // The last two entries, which are the edge the strip stands on.
     Index older = origin(start), newer = origin(next_in_triangle(start));
     strips_.insert(strips_.end(), {origin(previous_in_triangle(start)), older, newer});
     bool even = true;
     for (std::size_t i = 0; i < exits_.size(); ++i) {
       const Index entry = graph_.opposite[exits_[i]];
-      done_[triangle_of(entry)] = true;
       if (i + 1 < exits_.size() && (exits_[i + 1] == previous_in_triangle(entry)) != even) {
         strips_.push_back(older);
         std::swap(older, newer);
@@ -115,7 +107,7 @@ class Emitter {
   const StripInput& input_;
   const DualGraph& graph_;
   const Links& links_;
-  std::vector<std::uint8_t> done_;
+  std::vector<std::uint8_t> done_;  // ends of strips that were begun at the other end
   std::vector<Index> exits_;
   Strips strips_;
 };

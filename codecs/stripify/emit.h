@@ -16,9 +16,9 @@ inline void set_link(const DualGraph& graph, Links& links, Index h, bool on) {
   links[h] = links[graph.opposite[h]] = on;
 }
 
-/// Writes the strips out: in ascending order of group, then of their lowest triangle; from the end
-/// that costs fewer entries, from the one with the lower triangle when both cost the same. A turn
-/// that does not alternate repeats one entry.
+/// Writes the strips out: in ascending order of group, then of the lower one of their two end
+/// triangles; from the end that costs fewer entries, from the lower one when both cost the same. A
+/// turn that does not alternate repeats one entry.
 ///
 /// cost  O(n), O(n log n) when the groups are not in ascending order
 Strips emit_strips(const StripInput& input, const DualGraph& graph, const Links& links);

@@ -4,7 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "codecs/stripify/emit.h"
 #include "codecs/stripify/free_triangles.h"
 
 namespace pstrip {
@@ -22,12 +21,12 @@ struct Head {
 
 class Sgi {
  public:
-  explicit Sgi(const StripInput& input)
-      : graph_(make_dual_graph(input)), free_(graph_), links_(graph_.half_edge_count()) {}
+  explicit Sgi(const DualGraph& graph)
+      : graph_(graph), free_(graph), links_(graph.half_edge_count()) {}
 
   // `choose(head)` gives the half-edge to step over next, or kNone.
   template <class Choose>
-  Strips run(const StripInput& input, Choose&& choose) {
+  Links run(Choose&& choose) {
     for (Index seed; (seed = free_.lowest()) != kNone;) {
       free_.take(seed);
       const Head start{seed, kNone, Turn::none, true};
@@ -38,7 +37,7 @@ class Sgi {
       const Index back = choose(*this, Head{seed, exit, reversed(second), true});
       if (back != kNone) walk(back, turn(exit, back), choose);
     }
-    return emit_strips(input, graph_, links_);
+    return std::move(links_);
   }
 
   bool is_free_over(Index h) const {
@@ -84,7 +83,7 @@ class Sgi {
     return first;
   }
 
-  DualGraph graph_;
+  const DualGraph& graph_;
   FreeTriangles free_;
   Links links_;
 };
@@ -118,12 +117,16 @@ Index fewest_swaps(const Sgi& sgi, const Head& head) {
 
 }  // namespace
 
+Links sgi_strips_links(const DualGraph& graph) { return Sgi(graph).run(fewest_neighbors); }
+
 Strips sgi_strips(const StripInput& input, const StripOptions&) {
-  return Sgi(input).run(input, fewest_neighbors);
+  const DualGraph graph = make_dual_graph(input);
+  return emit_strips(input, graph, sgi_strips_links(graph));
 }
 
 Strips sgi_vertices(const StripInput& input, const StripOptions&) {
-  return Sgi(input).run(input, fewest_swaps);
+  const DualGraph graph = make_dual_graph(input);
+  return emit_strips(input, graph, Sgi(graph).run(fewest_swaps));
 }
 
 }  // namespace pstrip

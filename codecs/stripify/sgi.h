@@ -1,6 +1,6 @@
 #pragma once
 
-#include "codecs/stripify/stripify.h"
+#include "codecs/stripify/emit.h"
 
 namespace pstrip {
 
@@ -12,6 +12,7 @@ namespace pstrip {
 /// SGS, few strips: steps to the neighbour with the fewest free neighbours, among equals to the
 /// one whose own best neighbour has the fewest, then to the one that needs no swap. O(n).
 Strips sgi_strips(const StripInput& input, const StripOptions& options);
+Links sgi_strips_links(const DualGraph& graph);
 
 /// SGV, few vertices: steps that need no swap, among them to the neighbour with the fewest free
 /// neighbours. A swap is accepted in two places only: where the two directions meet at the start,

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "codecs/stripify/best.h"
 #include "codecs/stripify/sgi.h"
 
 namespace pstrip {
 namespace {
 
 constexpr NamedStripifier kStripifiers[] = {
+    {"best", "spec/strips.md", best_strips},
     {"sgi-strips", "[Akeley90; Vanecek05 §8.1 SGS]", sgi_strips},
     {"sgi-vertices", "[Akeley90; Vanecek05 §8.1 SGV]", sgi_vertices},
 };

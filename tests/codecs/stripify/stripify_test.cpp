@@ -108,6 +108,48 @@ TEST(Sgi, NearsTheThesisOnATorus) {
   }
 }
 
+std::uint64_t indices_sent(const StripMesh& mesh, const char* name, const StripOptions& options) {
+  const Strips strips = find_stripifier(name)->run(mesh.input(), options);
+  EXPECT_EQ(find_strip_fault(mesh.input(), strips), "");
+  return strip_stats(strips).indices_sent;
+}
+
+// What the start of a strip may cost is no part of the annealed cost: one index at most a strip.
+TEST(Best, SendsFewerIndicesThanTheOthers) {
+  for (const NamedMesh& named : meshes()) {
+    if (named.mesh.triangles.size() < 3 * 100) continue;
+    SCOPED_TRACE(named.name);
+    const std::uint64_t best = indices_sent(named.mesh, "best", {.effort = 20});
+    EXPECT_LE(best, indices_sent(named.mesh, "sgi-strips", {}) + 2);
+    EXPECT_LE(best, indices_sent(named.mesh, "sgi-vertices", {}) + 2);
+  }
+}
+
+TEST(Best, GainsByEffort) {
+  const StripMesh mesh = test::strip_mesh(test::random_soup(3, 12, 1000));
+  const std::uint64_t fast = indices_sent(mesh, "best", {});
+  const std::uint64_t high = indices_sent(mesh, "best", {.effort = kEffortHigh});
+  EXPECT_LT(high, fast);
+}
+
+TEST(Best, MakesFewerStripsForAHigherPrice) {
+  const StripMesh mesh = test::strip_mesh(test::random_soup(3, 12, 1000));
+  const auto strips = [&](std::uint32_t price) {
+    const StripOptions options{.effort = 50, .strip_price = price};
+    return strip_stats(find_stripifier("best")->run(mesh.input(), options)).strips;
+  };
+  EXPECT_LT(strips(10), strips(3));
+}
+
+TEST(Best, ChangesWithTheSeedAlone) {
+  const StripMesh mesh = test::strip_mesh(test::torus(20, 30));
+  const auto strips = [&](std::uint32_t seed) {
+    return find_stripifier("best")->run(mesh.input(), {.seed = seed, .effort = 5});
+  };
+  EXPECT_EQ(strips(1), strips(1));
+  EXPECT_NE(strips(1), strips(2));
+}
+
 // A hub of 300,000 triangles, and as many around one edge: what is not linear takes minutes.
 TEST(Stripifiers, StayFastAroundOneVertexAndOneEdge) {
   for (const StripMesh& mesh : {fan(300'000), book(300'000), pile(300'000)})

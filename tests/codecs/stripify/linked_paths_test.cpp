@@ -1,0 +1,94 @@
+#include "codecs/stripify/linked_paths.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include "codecs/stripify/random.h"
+#include "tests/support/meshes.h"
+#include "tests/support/strip_check.h"
+
+namespace pstrip {
+namespace {
+
+using test::StripMesh;
+
+// Swaps of an index map but for those that only mend a strip's start, which come second.
+int inner_swaps(const Strips& strips) {
+  int swaps = 0;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i + 2 < strips.size(); ++i) {
+    if (strips[i] == kRestart) start = i + 1;
+    swaps += i >= start + 2 && strips[i + 1] != kRestart && strips[i] == strips[i + 2];
+  }
+  return swaps;
+}
+
+// The end of the path that leaves over `exit`, step by step.
+bool walks_to(const LinkedPaths& paths, Index exit, Index t) {
+  for (Index h = exit; h != kNone; h = paths.other_link(paths.opposite(h)))
+    if (LinkedPaths::triangle_of(paths.opposite(h)) == t) return true;
+  return false;
+}
+
+// Links and cuts at random, as far as paths stay paths.
+void shuffle(LinkedPaths& paths, Random& random, int moves) {
+  for (; moves > 0; --moves) {
+    const Index h = LinkedPaths::half_edge(random.below(paths.triangle_count()), random.below(3));
+    if (!paths.has_opposite(h)) continue;
+    const Index s = LinkedPaths::triangle_of(h), t = LinkedPaths::triangle_of(paths.opposite(h));
+    if (paths.is_linked(h)) {
+      if (random.below(4) == 0) paths.flip(h);
+    } else if (paths.is_end(s) && paths.is_end(t) && !paths.on_same_path(s, t)) {
+      paths.flip(h);
+    }
+  }
+}
+
+RC_GTEST_PROP(LinkedPaths, KeepStripsThatCoverTheMesh, (std::uint32_t seed)) {
+  const StripMesh mesh = test::strip_mesh(test::random_soup(seed, 15, 150));
+  const DualGraph graph = make_dual_graph(mesh.input());
+  LinkedPaths paths(graph, Links(graph.half_edge_count()));
+  RC_PRE(paths.triangle_count() > 0);
+  Random random(seed);
+  shuffle(paths, random, 2000);
+  const Strips strips = emit_strips(mesh.input(), graph, paths.links());
+  RC_ASSERT(test::find_strip_fault(mesh.input(), strips) == "");
+}
+
+RC_GTEST_PROP(LinkedPaths, PriceALinkAsTheIndexMapDoes, (std::uint32_t seed)) {
+  const StripMesh mesh = test::strip_mesh(test::torus(6, 5));
+  const DualGraph graph = make_dual_graph(mesh.input());
+  LinkedPaths paths(graph, Links(graph.half_edge_count()));
+  Random random(seed);
+  shuffle(paths, random, 2000);
+  const int before = inner_swaps(emit_strips(mesh.input(), graph, paths.links()));
+  for (Index t = 0; t < paths.triangle_count(); ++t) {
+    const Index h = LinkedPaths::half_edge(t, random.below(3));
+    if (!paths.is_linked(h)) continue;
+    const int swaps = paths.swaps_with(h);
+    paths.flip(h);
+    RC_ASSERT(paths.swaps_with(h) == swaps);
+    RC_ASSERT(inner_swaps(emit_strips(mesh.input(), graph, paths.links())) == before - swaps);
+    paths.flip(h);
+  }
+}
+
+RC_GTEST_PROP(LinkedPaths, KnowWherePathsLead, (std::uint32_t seed)) {
+  const StripMesh mesh = test::strip_mesh(test::torus(4, 4));
+  LinkedPaths paths(make_dual_graph(mesh.input()), Links(mesh.triangles.size()));
+  Random random(seed);
+  shuffle(paths, random, 500);
+  for (Index t = 0; t < paths.triangle_count(); ++t) {
+    if (!paths.is_end(t)) continue;
+    for (Index s = 0; s < paths.triangle_count(); ++s)
+      for (Index k = 0; k < 3; ++k) {
+        const Index exit = LinkedPaths::half_edge(s, k);
+        if (s == t || !paths.is_linked(exit)) continue;
+        RC_ASSERT(paths.leads_to(exit, t) == walks_to(paths, exit, t));
+      }
+  }
+}
+
+}  // namespace
+}  // namespace pstrip
