@@ -1,0 +1,131 @@
+#include "codecs/simplify/complex.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+namespace pstrip {
+namespace {
+
+bool is_finite(std::span<const double> p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+}  // namespace
+
+Complex::Complex(std::span<const double> positions, std::span<const Index> wedge_vertex,
+                 std::span<const Index> triangles)
+    : vertices(positions.size() / 3) {
+  assert(triangles.size() / 3 < kMaxCount / 4);
+  // Halved, so that the extent of the largest doubles is still one.
+  double low[3], high[3];
+  std::fill_n(low, 3, std::numeric_limits<double>::max());
+  std::fill_n(high, 3, std::numeric_limits<double>::lowest());
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const auto p = positions.subspan(3 * v, 3);
+    if (!is_finite(p)) continue;
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k] / 2);
+      high[k] = std::max(high[k], p[k] / 2);
+    }
+  }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 0.0});
+  int exponent = 0;
+  if (extent > 0) std::frexp(extent, &exponent);
+  // Two factors, since 1 / extent of a denormal extent is too large for one.
+  scale[0] = std::ldexp(1.0, -exponent / 2);
+  scale[1] = std::ldexp(1.0, -exponent - -exponent / 2);
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const auto p = positions.subspan(3 * v, 3);
+    if (is_finite(p)) {
+      vertices[v].x = (p[0] / 2 - low[0]) * scale[0] * scale[1];
+      vertices[v].y = (p[1] / 2 - low[1]) * scale[0] * scale[1];
+      vertices[v].z = (p[2] / 2 - low[2]) * scale[0] * scale[1];
+    } else {
+      vertices[v].error = std::numeric_limits<float>::infinity();
+    }
+  }
+  if (extent > 0)
+    diagonal = std::hypot((high[0] - low[0]) * scale[0] * scale[1],
+                          (high[1] - low[1]) * scale[0] * scale[1],
+                          (high[2] - low[2]) * scale[0] * scale[1]);
+  scale[0] /= 2;  // of the halves
+
+  corner_vertex.resize(triangles.size() / 3 * 4);
+  for (Index t = 0; t < triangle_count(); ++t)
+    for (Index k = 0; k < 3; ++k) {
+      const Index wedge = triangles[std::size_t{3} * t + k];
+      const Index vertex = wedge_vertex.empty() ? wedge : wedge_vertex[wedge];
+      corner_vertex[4 * t + k] = vertex;
+      ++vertices[vertex].ring_capacity;
+    }
+  Index first = 0;
+  for (VertexRecord& v : vertices) {
+    v.ring = first;
+    first += v.ring_capacity;
+  }
+  pool_.resize(first);
+  for (Index t = 0; t < triangle_count(); ++t)
+    for (Index c = 4 * t; c < 4 * t + 3; ++c) {
+      VertexRecord& v = vertices[corner_vertex[c]];
+      pool_[v.ring + v.ring_size++] = c;
+    }
+}
+
+void Complex::gather(Index vertex, Star& star) {
+  const auto corners = ring(vertex);
+  const Index epoch = new_epoch();
+  star.vertex = vertex;
+  star.spokes.resize(corners.size());
+  star.edges.clear();
+  for (Index i = 0; i < corners.size(); ++i) {
+    Spoke& spoke = star.spokes[i];
+    spoke.corner = corners[i];
+    spoke.next = corner_vertex[next(corners[i])];
+    spoke.previous = corner_vertex[previous(corners[i])];
+    for (Index side = 0; side < 2; ++side) {
+      const Index other = side == 0 ? spoke.next : spoke.previous;
+      VertexRecord& record = vertices[other];
+      if (record.mark != epoch) {
+        record.mark = epoch;
+        record.slot = static_cast<Index>(star.edges.size());
+        star.edges.push_back({.vertex = other, .triangles = 0, .outgoing = 0});
+      }
+      StarEdge& edge = star.edges[record.slot];
+      ++edge.triangles;
+      edge.outgoing += side == 0 ? 1 : 0;
+      spoke.more[side] = edge.first;
+      edge.first = 2 * i + side;
+    }
+  }
+  star.open_edges = static_cast<Index>(
+      std::ranges::count_if(star.edges, [](const StarEdge& edge) { return edge.triangles != 2; }));
+}
+
+void Complex::append(Index vertex, std::span<const Index> corners) {
+  VertexRecord& record = vertices[vertex];
+  const Index live = static_cast<Index>(ring(vertex).size());
+  const Index size = live + static_cast<Index>(corners.size());
+  if (size > record.ring_capacity) {
+    const Index capacity = size + size / 2;
+    const Index first = static_cast<Index>(pool_.size());
+    pool_.resize(pool_.size() + capacity);
+    std::copy_n(pool_.begin() + record.ring, live, pool_.begin() + first);
+    record.ring = first;
+    record.ring_capacity = capacity;
+  }
+  std::ranges::copy(corners, pool_.begin() + record.ring + live);
+  record.ring_size = size;
+}
+
+Index Complex::new_epoch(Index how_many) {
+  if (epoch_ > std::numeric_limits<Index>::max() - how_many) {
+    for (VertexRecord& v : vertices) v.mark = 0;
+    epoch_ = 0;
+  }
+  epoch_ += how_many;
+  return epoch_ - how_many + 1;
+}
+
+}  // namespace pstrip

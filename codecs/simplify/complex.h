@@ -1,0 +1,138 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codecs/simplify/quadric.h"
+#include "core/mesh.h"
+
+namespace pstrip {
+
+/// A triangle at a vertex: its other two vertices in winding order, and the vertex's own corner.
+struct Spoke {
+  Index next, previous;
+  Index corner;
+  Index more[2];  ///< the next spoke on the same edge as a multiple of 2 plus its side, or kNone:
+                  ///< for the edge to `next` and to `previous`
+};
+
+/// An edge at a vertex.
+struct StarEdge {
+  Index vertex;         ///< the other end
+  Index triangles;      ///< on this edge
+  Index outgoing;       ///< of them, those that run along it away from the vertex
+  Index first = kNone;  ///< as Spoke::more
+  float cost = 0, error = 0;
+  std::uint8_t refused = 0;  ///< guard that did, 0 none
+};
+
+/// The live triangles and edges around one vertex; scratch memory.
+struct Star {
+  Index vertex = kNone;
+  std::vector<Spoke> spokes;
+  std::vector<StarEdge> edges;
+  Index open_edges = 0;  ///< with one triangle or more than two
+};
+
+/// Everything about a vertex that the inner loops need, on one cache line.
+struct alignas(64) VertexRecord {
+  double x = 0, y = 0, z = 0;  ///< scaled to the unit box
+  float error = 0;             ///< constant term of its quadric; infinite: locked
+  float weight = 0;            ///< of its quadric's planes
+  float key = 0;               ///< in the heap
+  float floor = 0;             ///< the key it would have if no guard had refused
+  Index ring = 0;              ///< first of its corners in the pool
+  Index ring_size = 0;         ///< dead triangles included
+  Index ring_capacity = 0;
+  Index mark = 0, slot = 0;   ///< scratch of whoever drew the last epoch
+  std::uint16_t touches = 0;  ///< changes around it since it was last looked at
+  bool regular = false;       ///< each edge has two triangles of opposite direction
+};
+
+/// Triangles over flat arrays with the corners of each vertex listed in one pool.
+/// A corner is 4 · triangle + its place 0, 1, 2; place 3 tells whether the triangle is dead.
+class Complex {
+ public:
+  /// Locks vertices that are not finite. Cost O(size).
+  Complex(std::span<const double> positions, std::span<const Index> wedge_vertex,
+          std::span<const Index> triangles);
+
+  std::vector<VertexRecord> vertices;
+  std::vector<Index> corner_vertex;
+  /// A model unit is 1 / (scale[0] · scale[1]) of ours; each a power of two.
+  double scale[2] = {1, 1};
+  double diagonal = 0;  ///< of the bounding box, in our units
+
+  Index vertex_count() const { return static_cast<Index>(vertices.size()); }
+  Index triangle_count() const { return static_cast<Index>(corner_vertex.size() / 4); }
+  static Index next(Index corner) { return (corner & ~3u) | (0x09u >> (corner & 3u) * 2 & 3u); }
+  static Index previous(Index corner) { return (corner & ~3u) | (0x12u >> (corner & 3u) * 2 & 3u); }
+  bool is_dead(Index corner) const { return corner_vertex[corner | 3u] != 0; }
+  void kill(Index corner) { corner_vertex[corner | 3u] = 1; }
+
+  /// The vector from `from` to `to`, exact before it is rounded.
+  Vec3f offset(Index from, Index to) const {
+    const VertexRecord &f = vertices[from], &t = vertices[to];
+    return {static_cast<float>(t.x - f.x), static_cast<float>(t.y - f.y),
+            static_cast<float>(t.z - f.z)};
+  }
+
+  /// The live corners of a vertex; forgets its dead ones.
+  std::span<const Index> ring(Index vertex);
+  /// Fills spokes and edges; `edges` in order of appearance. Cost O(ring).
+  void gather(Index vertex, Star& star);
+  /// The same for a regular vertex, faster: no lists of the spokes on an edge.
+  void gather_regular(Index vertex, Star& star);
+  /// Adds corners to the ring of a vertex. Amortized O(corners).
+  void append(Index vertex, std::span<const Index> corners);
+
+  /// Marks for one purpose: v is marked with it when vertices[v].mark == epoch.
+  Index new_epoch(Index how_many = 1);
+
+ private:
+  std::vector<Index> pool_;
+  Index epoch_ = 0;
+};
+
+inline std::span<const Index> Complex::ring(Index vertex) {
+  VertexRecord& record = vertices[vertex];
+  Index* const first = pool_.data() + record.ring;
+  Index live = 0;
+  for (Index i = 0; i < record.ring_size; ++i) {
+    const Index corner = first[i];
+    first[live] = corner;
+    live += is_dead(corner) ? 0 : 1;
+  }
+  record.ring_size = live;
+  return {first, live};
+}
+
+inline void Complex::gather_regular(Index vertex, Star& star) {
+  const VertexRecord& record = vertices[vertex];
+  star.vertex = vertex;
+  star.open_edges = 0;
+  star.spokes.resize(record.ring_size);
+  star.edges.resize(record.ring_size);
+  Index live = 0;
+  Index* const first = pool_.data() + record.ring;
+  for (Index i = 0; i < record.ring_size; ++i) {
+    const Index corner = first[i];
+    if (is_dead(corner)) continue;
+    first[live] = corner;
+    Spoke& spoke = star.spokes[live];
+    spoke.next = corner_vertex[next(corner)];
+    spoke.previous = corner_vertex[previous(corner)];
+    spoke.corner = corner;
+    StarEdge& edge = star.edges[live];
+    edge.vertex = spoke.next;
+    edge.triangles = 2;
+    edge.refused = 0;
+    ++live;
+  }
+  vertices[vertex].ring_size = live;
+  star.spokes.resize(live);
+  star.edges.resize(live);
+}
+
+}  // namespace pstrip

@@ -1,0 +1,49 @@
+#pragma once
+
+namespace pstrip {
+
+struct Vec3f {
+  float x = 0, y = 0, z = 0;
+};
+
+inline Vec3f operator-(Vec3f a, Vec3f b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3f operator*(Vec3f a, float s) { return {a.x * s, a.y * s, a.z * s}; }
+inline float dot(Vec3f a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3f cross(Vec3f a, Vec3f b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Sum of weighted squared distances to planes, x'Ax + 2b'x, with x relative to the vertex that
+/// owns it. [Garland97 §3.4] The constant term is kept by the owner: it is the error where the
+/// owner stands. Being relative keeps the terms small, and single precision good.
+struct Quadric {
+  float xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  Vec3f b;
+
+  /// Adds the plane through the owner with this unit normal.
+  void add_plane(Vec3f normal, float weight) {
+    const Vec3f w = normal * weight;
+    xx += w.x * normal.x, yy += w.y * normal.y, zz += w.z * normal.z;
+    xy += w.x * normal.y, xz += w.x * normal.z, yz += w.y * normal.z;
+  }
+
+  Vec3f times(Vec3f d) const {
+    return {xx * d.x + xy * d.y + xz * d.z, xy * d.x + yy * d.y + yz * d.z,
+            xz * d.x + yz * d.y + zz * d.z};
+  }
+  float at(Vec3f d) const {
+    const Vec3f a = times(d);
+    return dot(d, {a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z});
+  }
+
+  /// Adds one whose owner stands at `offset` from this one's. The constant term of the sum grows by
+  /// other.at(-offset).
+  void add(const Quadric& other, Vec3f offset) {
+    const Vec3f a = other.times(offset);
+    xx += other.xx, yy += other.yy, zz += other.zz;
+    xy += other.xy, xz += other.xz, yz += other.yz;
+    b.x += other.b.x - a.x, b.y += other.b.y - a.y, b.z += other.b.z - a.z;
+  }
+};
+
+}  // namespace pstrip

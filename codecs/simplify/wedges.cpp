@@ -1,0 +1,125 @@
+#include "codecs/simplify/wedges.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace pstrip {
+
+WedgeTable::WedgeTable(const SimplifyInput& input, double diagonal)
+    : corner_wedge(input.triangles.size() / 3 * 4),
+      attributes_(input.attributes),
+      count_(input.attributes.empty() ? 0 : input.attribute_count),
+      scale_(static_cast<float>(diagonal)) {
+  const std::size_t vertices = input.positions.size() / 3;
+  const std::size_t wedges = input.wedge_vertex.empty() ? vertices : input.wedge_vertex.size();
+  assert(attributes_.size() == wedges * count_);
+  for (std::size_t t = 0; 3 * t < input.triangles.size(); ++t)
+    std::copy_n(input.triangles.begin() + static_cast<std::ptrdiff_t>(3 * t), 3,
+                corner_wedge.begin() + static_cast<std::ptrdiff_t>(4 * t));
+  weight_.resize(wedges);
+  terms_.resize(wedges * count_);
+  mark_.resize(wedges);
+  other_.resize(wedges);
+  first_.assign(vertices, kNone);
+  next_.assign(wedges, kNone);
+  for (std::size_t w = wedges; w-- > 0;) {  // backwards, so that each list ascends
+    Index& first = first_[input.wedge_vertex.empty() ? w : input.wedge_vertex[w]];
+    next_[w] = first;
+    first = static_cast<Index>(w);
+  }
+}
+
+float WedgeTable::largest_difference(Index a, Index b) const {
+  float largest = 0;
+  for (std::uint32_t k = 0; k < count_; ++k)
+    largest = std::max(largest, std::abs(attributes_[std::size_t{a} * count_ + k] -
+                                         attributes_[std::size_t{b} * count_ + k]));
+  return largest;
+}
+
+float WedgeTable::cost(Index wedge, Index to, Vec3f offset) const {
+  float sum = 0;
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    const Term& term = terms_[std::size_t{wedge} * count_ + k];
+    const float a = attribute(to, k) - attribute(wedge, k);
+    sum += a * (a * weight_[wedge] - 2 * (dot(term.g, offset) + term.d));
+  }
+  return sum;
+}
+
+float WedgeTable::conflict(Index wedge, Index a, Index b) const {
+  float sum = 0;
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    const float difference = attribute(a, k) - attribute(b, k);
+    sum += difference * difference;
+  }
+  return sum * weight_[wedge] / 2;  // about half of its triangles get the wrong one
+}
+
+void WedgeTable::replace(Index wedge, Index to, Vec3f offset, Quadric& quadric) {
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    const Term& from = terms_[std::size_t{wedge} * count_ + k];
+    Term& sum = terms_[std::size_t{to} * count_ + k];
+    const float a = attribute(to, k) - attribute(wedge, k);
+    sum.g = {sum.g.x + from.g.x, sum.g.y + from.g.y, sum.g.z + from.g.z};
+    sum.d += from.d + dot(from.g, offset) - a * weight_[wedge];
+    quadric.b = quadric.b - from.g * a;
+  }
+  weight_[to] += weight_[wedge];
+}
+
+void WedgeTable::carry(Index wedge, Vec3f offset) {
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    Term& term = terms_[std::size_t{wedge} * count_ + k];
+    term.d += dot(term.g, offset);
+  }
+}
+
+void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, Vec3f offset,
+                          Quadric& quadric, std::vector<WedgeMove>& moves) {
+  // The two corners of a removed triangle correspond.
+  new_epoch();
+  Index any = kNone;
+  for (const Spoke& spoke : star.spokes) {
+    if (spoke.next != kept && spoke.previous != kept) continue;
+    const Index corner = spoke.corner;
+    const Index wedge = corner_wedge[corner];
+    const Index to =
+        corner_wedge[spoke.next == kept ? Complex::next(corner) : Complex::previous(corner)];
+    if (is_marked(wedge)) continue;
+    mark(wedge, to);
+    if (any == kNone) any = to;
+  }
+  for (const Spoke& spoke : star.spokes) {
+    if (complex.is_dead(spoke.corner)) continue;
+    Index& wedge = corner_wedge[spoke.corner];
+    if (!is_marked(wedge)) mark(wedge, kNone);
+    if (other(wedge) != kNone) wedge = other(wedge);
+  }
+  Index last_carried = kNone;
+  for (Index wedge = first_[star.vertex], after; wedge != kNone; wedge = after) {
+    after = next_[wedge];
+    if (!is_marked(wedge)) {  // in no triangle any more
+      moves.push_back({wedge, any});
+      continue;
+    }
+    const Index to = other(wedge);
+    moves.push_back({wedge, to});
+    if (to != kNone) {
+      replace(wedge, to, offset, quadric);
+      continue;
+    }
+    carry(wedge, offset);
+    next_[wedge] = last_carried;
+    last_carried = wedge;
+  }
+  first_[star.vertex] = kNone;
+  for (Index wedge = last_carried, after; wedge != kNone; wedge = after) {
+    after = next_[wedge];
+    next_[wedge] = first_[kept];
+    first_[kept] = wedge;
+  }
+}
+
+}  // namespace pstrip
