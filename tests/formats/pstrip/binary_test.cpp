@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <random>
+
 #include "formats/pstrip/check.h"
 #include "formats/pstrip/chunks.h"
 #include "tests/support/progressive.h"
@@ -13,6 +17,71 @@ using test::ProgressiveOptions;
 using test::random_progressive;
 using test::random_progressive_of_any_kind;
 
+/// A small file with one of everything.
+ProgressiveStrips rich_strips() {
+  return random_progressive(7, {.meshes = 2,
+                                .base_vertices = 4,
+                                .vsplits = 5,
+                                .encoding = MapEncoding::offset_difference,
+                                .placement = Placement::free,
+                                .single_wedges = false,
+                                .scene = true,
+                                .faces = true,
+                                .order = true,
+                                .digest = true,
+                                .unknown = true});
+}
+
+/// The payload of one chunk, to be changed by a test; `seal` then makes the CRC right again.
+std::span<std::byte> payload_of(Bytes& file, const ChunkType& type, std::size_t nth = 0) {
+  for (const Chunk& chunk : read_chunks(file).chunks)
+    if (chunk.type == type && nth-- == 0)
+      return std::span(file).subspan(chunk.payload_offset(), chunk.payload.size());
+  ADD_FAILURE() << "no such chunk";
+  return {};
+}
+
+void seal(Bytes& file) {
+  for (const Chunk& chunk : read_chunks(file).chunks) {
+    const std::uint32_t crc = chunk.computed_crc;
+    std::memcpy(file.data() + chunk.offset + chunk.bytes() - 4, &crc, 4);
+  }
+}
+
+void put_u32(std::span<std::byte> payload, std::size_t at, std::uint32_t v) {
+  std::memcpy(payload.data() + at, &v, 4);
+}
+
+/// A chunk by itself.
+Bytes make_chunk(const ChunkType& type, std::string_view payload) {
+  ByteWriter out;
+  out.bytes(as_bytes(name_of(type)));
+  out.string(payload);
+  out.bytes(Bytes(chunk_bytes(payload.size()) - 4 - out.size()));
+  out.u32(chunk_crc(out.view()));
+  return std::move(out).take();
+}
+
+/// `file` with `chunk` in front of the nth chunk, offsets and sizes in PSHD and PIDX adjusted.
+Bytes insert_chunk(const Bytes& file, ByteView chunk, std::size_t nth) {
+  const std::uint64_t at = read_chunks(file).chunks[nth].offset;
+  Bytes out = file;
+  out.insert(out.begin() + static_cast<std::ptrdiff_t>(at), chunk.begin(), chunk.end());
+  const auto shift = [&](std::span<std::byte> field, std::uint64_t from) {
+    std::uint64_t v;
+    std::memcpy(&v, field.data(), 8);
+    if (v >= from) v += chunk.size();
+    std::memcpy(field.data(), &v, 8);
+  };
+  const std::span<std::byte> header = payload_of(out, kHeaderChunk);
+  shift(header.subspan(80), at + 1);  // base_end: a chunk behind the last BASE is not before it
+  shift(header.subspan(88), 0);       // file_bytes
+  const std::span<std::byte> index = payload_of(out, kIndexChunk);
+  for (std::size_t row = 8; row < index.size(); row += 40) shift(index.subspan(row), at);
+  seal(out);
+  return out;
+}
+
 TEST(Binary, ReadsWhatItWrote) {
   for (std::uint32_t seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE(seed);
@@ -23,7 +92,328 @@ TEST(Binary, ReadsWhatItWrote) {
     const Result<ProgressiveStrips> again = read_binary(file);
     ASSERT_TRUE(again) << again.error().message << " at " << again.error().offset;
     EXPECT_EQ(*again, strips);
+    EXPECT_EQ(write_binary(*again).value(), file);
   }
+}
+
+TEST(Binary, KeepsFloatsBitForBit) {
+  ProgressiveStrips strips = random_progressive(3);
+  const std::uint32_t odd[] = {0x7fc0'0001, 0xffa1'2345, 0x8000'0000, 1};
+  std::memcpy(strips.meshes[0].position.data.data(), odd, sizeof odd);
+  const ProgressiveStrips again = read_binary(write_binary(strips).value()).value();
+  EXPECT_EQ(again.meshes[0].position.data, strips.meshes[0].position.data);
+}
+
+TEST(Binary, HeaderDeclaresTheFile) {
+  const ProgressiveStrips strips = rich_strips();
+  const Bytes file = write_binary(strips).value();
+  BinaryParser parser;
+  ASSERT_TRUE(parser.feed(file));
+  const FileHeader& header = parser.header().value();
+  EXPECT_EQ(header.meshes, 2u);
+  EXPECT_EQ(header.packets, strips.packets.size());
+  EXPECT_EQ(header.vertices, 18u);
+  EXPECT_EQ(header.vsplits, 10u);
+  EXPECT_EQ(header.file_bytes, file.size());
+  EXPECT_EQ(header.base_end, parser.index()[1].offset + parser.index()[1].bytes);
+  const auto largest = std::ranges::max_element(parser.index(), {}, &IndexRow::bytes);
+  EXPECT_EQ(header.decoder_memory, decoder_memory(strips.meshes, largest->bytes));
+  EXPECT_EQ(header.level, 0);
+}
+
+TEST(Binary, LevelIsTheSmallestThatAdmits) {
+  const struct {
+    FileHeader header;
+    int level;
+  } kRows[] = {
+      {{}, 0},
+      {{.vertices = 1u << 16}, 0},
+      {{.vertices = (1u << 16) + 1}, 1},
+      {{.wedges = (1u << 21) + 1}, 2},
+      {{.map_entries = 1u << 27}, 2},
+      {{.map_entries = (1u << 27) + 1}, 3},
+      {{.decoder_memory = (1ull << 32) + 1}, 3},
+  };
+  for (const auto& row : kRows) EXPECT_EQ(conformance_level(row.header), row.level);
+}
+
+TEST(Binary, ParserTakesBytesInAnyPieces) {
+  const Bytes file = write_binary(rich_strips()).value();
+  const ProgressiveStrips whole = read_binary(file).value();
+  for (const std::size_t piece : {1, 3, 8, 113, 1000}) {
+    SCOPED_TRACE(piece);
+    BinaryParser parser;
+    for (std::size_t at = 0; at < file.size(); at += piece)
+      ASSERT_TRUE(parser.feed(ByteView(file).subspan(at, std::min(piece, file.size() - at))));
+    EXPECT_TRUE(parser.complete());
+    EXPECT_FALSE(parser.end());
+    EXPECT_EQ(parser.strips(), whole);
+  }
+}
+
+TEST(Binary, EveryPrefixIsTruncatedOrItsLastWholePacket) {
+  const ProgressiveStrips strips = rich_strips();
+  const Bytes file = write_binary(strips).value();
+  BinaryParser parser;
+  ASSERT_TRUE(parser.feed(file));
+  const FileHeader header = *parser.header();
+  for (std::size_t size = 0; size < file.size(); ++size) {
+    SCOPED_TRACE(size);
+    // An exact copy, so that a sanitizer sees an overread.
+    const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size));
+    const auto whole = read_binary(cut);
+    ASSERT_FALSE(whole);
+    EXPECT_EQ(whole.error().code, ErrorCode::truncated);
+    EXPECT_EQ(whole.error().offset, size);
+    const auto prefix = read_binary(cut, {}, ReadMode::prefix);
+    ASSERT_EQ(prefix.has_value(), size >= header.base_end);
+    if (!prefix) {
+      EXPECT_EQ(prefix.error().code, ErrorCode::truncated);
+      continue;
+    }
+    EXPECT_FALSE(prefix->complete);
+    std::size_t packets = 0;
+    for (std::size_t row = 2; row < parser.index().size(); ++row)
+      packets += parser.index()[row].offset + parser.index()[row].bytes <= size;
+    ASSERT_EQ(prefix->packets.size(), packets);
+    const Result<void> holds = check(*prefix);
+    EXPECT_TRUE(holds) << holds.error().message;
+    for (std::size_t m = 0; m < 2; ++m) {
+      ProgressiveMesh reached = prefix->meshes[m], original = strips.meshes[m];
+      reached.faces = original.faces = {};
+      const std::size_t n = reached.vsplits.size();
+      EXPECT_EQ(test::decode_slowly(reached, n), test::decode_slowly(original, n));
+    }
+  }
+}
+
+TEST(Binary, EveryFlippedBitIsFound) {
+  const Bytes file = write_binary(rich_strips()).value();
+  for (std::size_t bit = 0; bit < 8 * file.size(); ++bit) {
+    Bytes bad = file;
+    bad[bit / 8] ^= std::byte{1} << bit % 8;
+    const auto read = read_binary(bad);
+    ASSERT_FALSE(read) << "bit " << bit;
+    EXPECT_EQ(read.error().code, ErrorCode::corrupt) << "bit " << bit;
+  }
+}
+
+// What the CRC cannot find, since it is right: whatever is accepted must satisfy check().
+TEST(Binary, EveryFlippedPayloadBitIsRefusedOrSafe) {
+  const Bytes file = write_binary(rich_strips()).value();
+  std::size_t refused = 0;
+  for (const Chunk& chunk : read_chunks(file).chunks)
+    for (std::size_t bit = 0; bit < 8 * chunk.payload.size(); ++bit) {
+      Bytes bad = file;
+      bad[chunk.payload_offset() + bit / 8] ^= std::byte{1} << bit % 8;
+      const std::uint32_t crc = chunk_crc(ByteView(bad).subspan(chunk.offset, chunk.bytes() - 4));
+      std::memcpy(bad.data() + chunk.offset + chunk.bytes() - 4, &crc, 4);
+      const auto read = read_binary(bad);
+      if (!read) {
+        ++refused;
+        continue;
+      }
+      const Result<void> holds = check(*read);
+      ASSERT_TRUE(holds) << holds.error().message << " bit " << bit << " of "
+                         << name_of(chunk.type);
+    }
+  EXPECT_GT(refused, 1000u);
+}
+
+TEST(Binary, RandomDamageWithRightCrcsIsRefusedOrSafe) {
+  std::mt19937 random(1);
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    SCOPED_TRACE(i);
+    Bytes bad = write_binary(random_progressive_of_any_kind(1000 + i)).value();
+    const ChunkList chunks = read_chunks(bad);
+    for (int n = 0; n < 3; ++n) {
+      const Chunk& chunk = chunks.chunks[random() % chunks.chunks.size()];
+      if (chunk.payload.size() < 4) continue;
+      const std::size_t at = random() % (chunk.payload.size() / 4) * 4;
+      constexpr std::uint32_t kEdges[] = {
+          0, 1, 2, 5, 0x7fff'ffff, 0x8000'0000, 0xffff'ff00, 0xffff'fffb, 0xffff'ffff};
+      put_u32(std::span(bad).subspan(chunk.payload_offset()), at, kEdges[random() % 9]);
+    }
+    seal(bad);
+    const auto read = read_binary(bad);
+    if (!read) continue;
+    const Result<void> holds = check(*read);
+    EXPECT_TRUE(holds) << holds.error().message;
+  }
+}
+
+TEST(Binary, KeepsUnknownAncillaryChunks) {
+  const ProgressiveStrips strips = random_progressive(5, {.meshes = 2, .scene = true});
+  const Bytes file = write_binary(strips).value();
+  const Bytes extra = make_chunk(chunk_type("noTe"), "remember me");
+  ProgressiveStrips expected = strips;
+  expected.unknown = {
+      {chunk_type("noTe"), Bytes(as_bytes("remember me").begin(), as_bytes("remember me").end())}};
+  const std::size_t chunks = read_chunks(file).chunks.size();
+  for (std::size_t nth = 1; nth < chunks; ++nth) {
+    SCOPED_TRACE(nth);
+    const auto read = read_binary(insert_chunk(file, extra, nth));
+    ASSERT_TRUE(read) << read.error().message << read.error().offset;
+    EXPECT_EQ(*read, expected);
+    const ChunkList again = read_chunks(write_binary(*read).value());
+    EXPECT_EQ(again.chunks[again.chunks.size() - 2].type, chunk_type("noTe"));
+  }
+}
+
+TEST(Binary, RefusesUnknownCriticalChunks) {
+  const Bytes file = write_binary(random_progressive(5)).value();
+  const Bytes extra = make_chunk(chunk_type("NOTE"), "");
+  for (std::size_t nth = 1; nth < read_chunks(file).chunks.size(); ++nth) {
+    const auto read = read_binary(insert_chunk(file, extra, nth));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(read.error().offset, read_chunks(file).chunks[nth].offset);
+  }
+}
+
+TEST(Binary, RefusesChunksOutOfOrder) {
+  const Bytes file = write_binary(rich_strips()).value();
+  const ChunkList list = read_chunks(file);
+  for (std::size_t nth = 0; nth + 1 < list.chunks.size(); ++nth) {
+    const Chunk &a = list.chunks[nth], &b = list.chunks[nth + 1];
+    const bool free = !is_known(a.type) || !is_known(b.type) ||
+                      (a.type == b.type && (a.type == kMeshChunk || a.type == kForeignChunk));
+    if (free) continue;  // a different file, or the same one for all a reader can know
+    SCOPED_TRACE(std::string(name_of(a.type)) + " " + std::string(name_of(b.type)));
+    const auto at = [&](std::uint64_t offset) {
+      return file.begin() + static_cast<std::ptrdiff_t>(offset);
+    };
+    Bytes bad(file.begin(), at(a.offset));
+    bad.insert(bad.end(), at(b.offset), at(b.offset + b.bytes()));
+    bad.insert(bad.end(), at(a.offset), at(b.offset));
+    bad.insert(bad.end(), at(b.offset + b.bytes()), file.end());
+    const auto read = read_binary(bad);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::corrupt);
+  }
+}
+
+TEST(Binary, RefusesWhatFollowsTheEnd) {
+  Bytes file = write_binary(random_progressive(5)).value();
+  const std::uint64_t size = file.size();
+  file.push_back({});
+  const auto read = read_binary(file);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::corrupt);
+  EXPECT_EQ(read.error().offset, size);
+}
+
+struct BadField {
+  const char* name;
+  ChunkType chunk;
+  std::size_t at;  ///< in the payload of its first chunk
+  std::uint32_t value;
+  ErrorCode code;
+};
+
+TEST(Binary, RefusesBadFieldsWithCodeAndChunk) {
+  const ProgressiveStrips strips =
+      random_progressive(11, {.scene = true, .faces = true, .order = true, .digest = true});
+  const BadField kRows[] = {
+      {"version", kHeaderChunk, 0, 2, ErrorCode::unsupported},
+      {"profile", kHeaderChunk, 4, 1, ErrorCode::unsupported},
+      {"flags", kHeaderChunk, 4, 0x10000, ErrorCode::unsupported},
+      {"more_meshes_than_chunks", kHeaderChunk, 8, 2, ErrorCode::corrupt},
+      {"meshes_over_limit", kHeaderChunk, 8, 0xffff'ffff, ErrorCode::over_limit},
+      {"vertices_over_limit", kHeaderChunk, 20, 1, ErrorCode::over_limit},
+      {"map_over_limit", kHeaderChunk, 52, 1, ErrorCode::over_limit},
+      {"memory_over_limit", kHeaderChunk, 68, 0x100, ErrorCode::over_limit},
+      {"vertex_total", kHeaderChunk, 16, 1, ErrorCode::corrupt},
+      {"name_longer_than_payload", kMeshChunk, 0, 0x7fff'ffff, ErrorCode::corrupt},
+      {"scene_nodes", kSceneChunk, 9, 0x7fff'ffff, ErrorCode::corrupt},
+      {"materials", kMaterialsChunk, 0, 0xffff'ffff, ErrorCode::corrupt},
+      {"rows", kIndexChunk, 0, 0xffff'ffff, ErrorCode::corrupt},
+      {"row_reserved", kIndexChunk, 4, 1, ErrorCode::corrupt},
+      {"row_offset", kIndexChunk, 8, 0, ErrorCode::corrupt},
+      {"row_bytes", kIndexChunk, 16, 8, ErrorCode::corrupt},
+      {"base_mesh", kBaseChunk, 0, 1, ErrorCode::corrupt},
+      {"base_vertices", kBaseChunk, 4, 0xffff'ff00, ErrorCode::corrupt},
+      {"base_map", kBaseChunk, 12, 0xffff'ff00, ErrorCode::corrupt},
+      {"packet_mesh", kPacketChunk, 0, 1, ErrorCode::corrupt},
+      {"packet_first", kPacketChunk, 4, 1, ErrorCode::corrupt},
+      {"packet_vsplits", kPacketChunk, 8, 0xffff'ffff, ErrorCode::corrupt},
+      {"packet_wedges", kPacketChunk, 12, 0xffff'ffff, ErrorCode::corrupt},
+      {"packet_carried", kPacketChunk, 16, 0xffff'ffff, ErrorCode::corrupt},
+      {"packet_places", kPacketChunk, 20, 0xffff'ffff, ErrorCode::corrupt},
+      {"packet_parent", kPacketChunk, 24, 0xffff'fff0, ErrorCode::corrupt},
+      {"faces_mesh", kFacesChunk, 0, 1, ErrorCode::corrupt},
+      {"faces_count", kFacesChunk, 4, 0xffff'ffff, ErrorCode::corrupt},
+      {"faces_corners", kFacesChunk, 8, 0xffff'ffff, ErrorCode::corrupt},
+      {"faces_replaced", kFacesChunk, 12, 0xffff'ffff, ErrorCode::corrupt},
+      {"faces_first", kFacesChunk, 16, 1, ErrorCode::corrupt},
+      {"order_mesh", kOrderChunk, 0, 9, ErrorCode::corrupt},
+      {"order_twice", kOrderChunk, 8, strips.meshes[0].order.vertex[1], ErrorCode::corrupt},
+      {"digest_mesh", kDigestChunk, 0, 1, ErrorCode::corrupt},
+      {"digest_algorithm", kDigestChunk, 4, 2, ErrorCode::unsupported},
+      {"image", kImageChunk, 0, 0, ErrorCode::corrupt},
+      {"foreign_key", kForeignChunk, 0, 0x7fff'ffff, ErrorCode::corrupt},
+  };
+  const Bytes file = write_binary(strips).value();
+  for (const BadField& row : kRows) {
+    SCOPED_TRACE(row.name);
+    Bytes bad = file;
+    put_u32(payload_of(bad, row.chunk), row.at, row.value);
+    seal(bad);
+    const auto read = read_binary(bad);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, row.code) << read.error().message;
+    EXPECT_NE(read.error().offset, kNoOffset);
+  }
+}
+
+TEST(Binary, AChunkThatRunsPastTheDeclaredSizeIsCorruptAtOnce) {
+  const Bytes file = write_binary(random_progressive(5)).value();
+  const Chunk base = read_chunks(file).chunks.at(3);
+  ASSERT_EQ(base.type, kBaseChunk);
+  Bytes bad(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(base.payload_offset()));
+  put_u32(std::span(bad), base.offset + 4, 0x7fff'ffff);
+  BinaryParser parser;
+  const auto fed = parser.feed(bad);
+  ASSERT_FALSE(fed);
+  EXPECT_EQ(fed.error().code, ErrorCode::corrupt);
+  EXPECT_EQ(fed.error().offset, base.offset);
+}
+
+TEST(Binary, LimitsAreAnAnswerOfTheirOwn) {
+  const Bytes file = write_binary(rich_strips()).value();
+  for (std::uint64_t Limits::*field :
+       {&Limits::vertices, &Limits::wedges, &Limits::corners, &Limits::meshes,
+        &Limits::string_bytes, &Limits::memory_bytes}) {
+    Limits tight;
+    tight.*field = 1;
+    const auto read = read_binary(file, tight);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::over_limit);
+  }
+}
+
+TEST(Binary, ARefusedChunkLeavesTheStripsAsTheyWere) {
+  const ProgressiveStrips strips = random_progressive(
+      21,
+      {.vsplits = 6, .packet_vsplits = 3, .placement = Placement::free, .single_wedges = false});
+  Bytes file = write_binary(strips).value();
+  // The last record of the second packet gets a parent that does not exist.
+  put_u32(payload_of(file, kPacketChunk, 1), 24 + 8, 0x7fff'ffff);
+  seal(file);
+  const ChunkList list = read_chunks(file);
+  std::size_t second = 0;
+  for (std::size_t i = 0; i < list.chunks.size(); ++i)
+    if (list.chunks[i].type == kPacketChunk) second = i;
+  BinaryParser before, after;
+  ASSERT_TRUE(before.feed(ByteView(file).first(list.chunks[second].offset)));
+  const auto fed = after.feed(file);
+  ASSERT_FALSE(fed);
+  EXPECT_EQ(fed.error().path, "/meshes/0/vsplits/5");
+  EXPECT_EQ(after.strips(), before.strips());
+  const auto again = after.feed({});
+  ASSERT_FALSE(again) << "the error stays";
+  EXPECT_EQ(again.error(), fed.error());
+  EXPECT_TRUE(after.has_base());
 }
 
 }  // namespace
