@@ -1,0 +1,620 @@
+#include <algorithm>
+#include <numeric>
+
+#include "formats/pstrip/face_finder.h"
+#include "formats/pstrip/numbers.h"
+#include "formats/pstrip/text.h"
+
+namespace pstrip {
+namespace {
+
+/// How much work a replay may do for each byte of Limits::memory_bytes: what is kept of an entry
+/// that a record touches takes less than 64 bytes.
+constexpr std::uint64_t kBytesPerEntry = 64;
+
+/// A mesh between two records, and what the last record touched. [spec/vsplit.md]
+class Replay {
+ public:
+  /// max_work  entries that all steps together may touch
+  Replay(const ProgressiveMesh& mesh, std::vector<Index> resolved, std::uint64_t max_work)
+      : mesh_(mesh),
+        resolved_(std::move(resolved)),
+        wedge_vertex_(mesh.base_wedge_vertex),
+        linked_(!mesh.carried.empty()),
+        max_work_(max_work) {
+    if (mesh.encoding == MapEncoding::offset_difference) symbols_ = mesh.base_map;
+    if (mesh.single_wedges) {
+      wedge_vertex_.resize(mesh.base_wedges);
+      std::iota(wedge_vertex_.begin(), wedge_vertex_.end(), Index{0});
+    }
+    if (linked_) link_all();
+  }
+
+  enum class Outcome : std::uint8_t { applied, broken, too_much };
+
+  /// Applies record `vsplit`, the one after the last. Broken: it rewrites an entry that does not
+  /// show its parent or carries a wedge that is not its parent's.
+  Outcome step(Index vsplit) {
+    const Vsplit& split = mesh_.vsplits[vsplit];
+    const Index vertex = mesh_.base_vertices + vsplit;
+    touched_.clear();
+    outcome_ = Outcome::applied;
+    for (Index k = 0; k < split.carried; ++k) {
+      const Index wedge = mesh_.carried[carried_++];
+      if (wedge_vertex_[wedge] != split.parent) return Outcome::broken;
+      wedge_vertex_[wedge] = vertex;
+      for (Index at = first_place_[wedge]; at != kNone; at = next_place_[at])
+        if (!touch(at)) return outcome_;
+    }
+    for (Index k = 0; k < split.wedges; ++k) {
+      const auto wedge = static_cast<Index>(wedge_vertex_.size());
+      wedge_vertex_.push_back(vertex);
+      if (linked_) first_place_.push_back(kNone);
+      for (Index n = mesh_.wedge_places[wedge_place_++]; n > 0; --n)
+        if (!write(mesh_.places[place_++], wedge, split.parent, vertex)) return outcome_;
+    }
+    std::ranges::sort(touched_);
+    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+    return outcome_;
+  }
+
+  /// Entries whose wedge, or whose wedge's vertex, the last step changed; ascending.
+  std::span<const Index> touched() const { return touched_; }
+  std::span<const Index> resolved() const { return resolved_; }
+  Index vertex_at(Index entry) const { return wedge_vertex_[resolved_[entry]]; }
+  Index wedge_count() const { return static_cast<Index>(wedge_vertex_.size()); }
+
+ private:
+  bool touch(Index entry) {
+    touched_.push_back(entry);
+    if (++work_ > max_work_) outcome_ = Outcome::too_much;
+    return outcome_ == Outcome::applied;
+  }
+
+  /// Writes a wedge, also to the entries whose symbols lead here.
+  bool write(Index place, Index wedge, Index parent, Index vertex) {
+    if (!symbols_.empty()) symbols_[place] = wedge;
+    pending_.assign(1, place);
+    while (!pending_.empty()) {
+      const Index at = pending_.back();
+      pending_.pop_back();
+      const Index before = vertex_at(at);
+      if (before != parent && before != vertex) return outcome_ = Outcome::broken, false;
+      relink(at, wedge);
+      if (!touch(at)) return false;
+      for (const int d : {-2, -1, 1, 2}) {
+        const std::int64_t other = std::int64_t{at} + d;
+        if (other < 0 || other >= static_cast<std::int64_t>(symbols_.size())) continue;
+        const Index entry = symbols_[static_cast<std::size_t>(other)];
+        if (is_symbol(entry) && distance_of(entry) == -d)
+          pending_.push_back(static_cast<Index>(other));
+      }
+    }
+    return true;
+  }
+
+  // Entries of each wedge, doubly linked; needed only when wedges are carried.
+  void link_all() {
+    first_place_.assign(mesh_.base_wedges, kNone);
+    next_place_.assign(resolved_.size(), kNone);
+    previous_place_ = next_place_;
+    for (Index at = 0; at < resolved_.size(); ++at)
+      if (resolved_[at] != kRestart) link(at);
+  }
+  void link(Index at) {
+    Index& first = first_place_[resolved_[at]];
+    previous_place_[at] = kNone;
+    next_place_[at] = first;
+    if (first != kNone) previous_place_[first] = at;
+    first = at;
+  }
+  void relink(Index at, Index wedge) {
+    if (linked_) {
+      const Index next = next_place_[at], previous = previous_place_[at];
+      (previous == kNone ? first_place_[resolved_[at]] : next_place_[previous]) = next;
+      if (next != kNone) previous_place_[next] = previous;
+    }
+    resolved_[at] = wedge;
+    if (linked_) link(at);
+  }
+
+  const ProgressiveMesh& mesh_;
+  std::vector<Index> resolved_;
+  std::vector<Index> symbols_;  // the map as it stands, symbols included; empty: there are none
+  std::vector<Index> wedge_vertex_;
+  bool linked_;
+  std::vector<Index> first_place_, next_place_, previous_place_;
+  std::vector<Index> touched_, pending_;
+  std::size_t wedge_place_ = 0, carried_ = 0, place_ = 0;
+  std::uint64_t work_ = 0, max_work_;
+  Outcome outcome_ = Outcome::applied;
+};
+
+Error error_of(Replay::Outcome outcome, Index mesh, Index vsplit) {
+  const bool broken = outcome == Replay::Outcome::broken;
+  return {broken ? ErrorCode::corrupt : ErrorCode::over_limit,
+          broken ? "record changes an entry or a wedge that is not its parent's"
+                 : "text needs more memory than the limit",
+          kNoOffset, "/meshes/" + std::to_string(mesh) + "/vsplits/" + std::to_string(vsplit)};
+}
+
+const Attribute* texture_of(const ProgressiveMesh& mesh) {
+  const auto found = std::ranges::find(mesh.wedge_attributes, "TEXCOORD_0", &Attribute::semantic);
+  return found == mesh.wedge_attributes.end() ? nullptr : &*found;
+}
+
+/// For each entry of the map, which texture index its corner has, in numbers of the mesh.
+///
+/// A face of the format keeps its texture indices for good; only the coordinates under an index
+/// change. So two corners share an index when they show the same wedge at every level.
+Result<std::vector<Index>> texture_slots(const ProgressiveMesh& mesh, Index index,
+                                         std::span<const Index> resolved, std::uint64_t max_work,
+                                         Index& slots) {
+  Replay replay(mesh, {resolved.begin(), resolved.end()}, max_work);
+  std::vector<Index> slot(resolved.begin(), resolved.end());
+  slots = mesh.base_wedges;
+  struct Changed {
+    Index slot, wedge, entry;
+    auto operator<=>(const Changed&) const = default;
+  };
+  std::vector<Changed> changed;
+  for (Index i = 0; i < mesh.vsplits.size(); ++i) {
+    const Index first_new = replay.wedge_count();
+    if (const auto outcome = replay.step(i); outcome != Replay::Outcome::applied)
+      return tl::unexpected<Error>(error_of(outcome, index, i));
+    changed.clear();
+    for (const Index entry : replay.touched())
+      if (replay.resolved()[entry] >= first_new)
+        changed.push_back({slot[entry], replay.resolved()[entry], entry});
+    std::ranges::sort(changed);
+    for (std::size_t k = 0; k < changed.size(); ++k) {
+      const bool same = k > 0 && changed[k - 1].slot == changed[k].slot &&
+                        changed[k - 1].wedge == changed[k].wedge;
+      slot[changed[k].entry] = same ? slots - 1 : slots++;
+    }
+  }
+  return slot;
+}
+
+/// Numbers that run through the whole file; those written count from 1.
+struct Numbering {
+  explicit Numbering(std::uint64_t key) : finder(key) {}
+  Index vertices = 0, slots = 0, faces = 0;
+  // Only with texture, where it matters which of two faces with the same vertices is which.
+  FaceFinder finder;
+  std::vector<Index> window_of;  ///< for each face, where it stands in the map of its mesh
+  bool faces_exchanged = false;  ///< a reader gives two faces each other's texture indices
+};
+
+/// Writes one mesh: first its base, line kind by line kind, then record after record.
+class MeshWriter {
+ public:
+  static Result<MeshWriter> make(const ProgressiveMesh& mesh, Index index, bool textured,
+                                 std::uint64_t max_work) {
+    Result<std::vector<Index>> resolved = resolve(mesh.base_map);
+    if (!resolved) return tl::unexpected<Error>(resolved.error());
+    std::vector<Index> slot;
+    Index slots = 0;
+    if (textured) {
+      Result<std::vector<Index>> found = texture_slots(mesh, index, *resolved, max_work, slots);
+      if (!found) return tl::unexpected<Error>(found.error());
+      slot = std::move(*found);
+    }
+    return MeshWriter(mesh, std::move(*resolved), std::move(slot), slots, max_work);
+  }
+
+  void write_vertices(TextWriter& out, Numbering& numbers) {
+    for (Index v = 0; v < mesh_->base_vertices; ++v) {
+      out.text("v ");
+      write_position(out, mesh_->position.element(v));
+      out.character('\n');
+      vertex_number_.push_back(++numbers.vertices);
+    }
+  }
+
+  /// Texture coordinates of the base, in the order in which the faces name them.
+  void write_texture(TextWriter& out, Numbering& numbers) {
+    for (const Index window : base_windows_)
+      for (const Index entry : corners_of(window))
+        if (announce(entry, numbers)) {
+          out.text("vt ");
+          write_coordinates(out, entry);
+          out.character('\n');
+        }
+  }
+
+  void write_faces(TextWriter& out, Numbering& numbers) {
+    for (const Index window : base_windows_) {
+      out.character('f');
+      for (const Index entry : corners_of(window)) {
+        out.character(' ');
+        out.integer(vertex_number_[replay_.vertex_at(entry)]);
+        if (slot_.empty()) continue;
+        out.character('/');
+        out.integer(slot_number_[slot_[entry]]);
+      }
+      out.character('\n');
+      add_face(window, numbers);
+    }
+  }
+
+  /// Record `split`, the one after the last.
+  Replay::Outcome write_record(TextWriter& out, Numbering& numbers, Index split) {
+    const Index vertex = mesh_->base_vertices + split;
+    if (const auto outcome = replay_.step(split); outcome != Replay::Outcome::applied)
+      return outcome;
+    vertex_number_.push_back(++numbers.vertices);
+    move_parent(split);
+    sort_windows(vertex);
+    out.text("s ");
+    for (const Index v : {mesh_->vsplits[split].parent, vertex}) {
+      out.integer(vertex_number_[v]);
+      out.character(' ');
+      const std::size_t bytes = mesh_->position.element_bytes();
+      write_position(out, ByteView(positions_).subspan(v * bytes, bytes));
+      out.character(' ');
+    }
+    write_added(out, numbers);
+    write_changed(out, numbers, vertex, mesh_->vsplits[split].parent);
+    write_texture_changes(out, numbers);
+    out.character('\n');
+    return Replay::Outcome::applied;
+  }
+
+  /// After the last record: whether each wedge that a face uses has one texture index of its own.
+  bool wedges_survive() const {
+    std::vector<Index> slot_of_wedge(mesh_->wedges, kNone);
+    for (Index window = 0; window < face_of_.size(); ++window) {
+      if (face_of_[window] == kNone) continue;
+      for (const Index entry : corners_of(window)) {
+        const Index slot = slot_.empty() ? replay_.vertex_at(entry) : slot_[entry];
+        Index& known = slot_of_wedge[replay_.resolved()[entry]];
+        if (known != kNone && known != slot) return false;
+        known = slot;
+      }
+    }
+    return std::ranges::find(slot_of_wedge, kNone) == slot_of_wedge.end();
+  }
+
+ private:
+  enum class Window : std::uint8_t { none, even, odd };
+
+  MeshWriter(const ProgressiveMesh& mesh, std::vector<Index> resolved, std::vector<Index> slot,
+             Index slots, std::uint64_t max_work)
+      : mesh_(&mesh),
+        texture_(texture_of(mesh)),
+        slot_(std::move(slot)),
+        slot_number_(slots, kNone),
+        slot_wedge_(slots, kNone),
+        replay_(mesh, std::move(resolved), max_work) {
+    const std::span<const Index> map = replay_.resolved();
+    windows_.assign(map.size(), Window::none);
+    face_of_.assign(map.size(), kNone);
+    std::size_t strip = 0;
+    for (std::size_t i = 0; i + 2 < map.size(); ++i) {
+      if (map[i] == kRestart) strip = i + 1;
+      if (map[i] == kRestart || map[i + 1] == kRestart || map[i + 2] == kRestart) continue;
+      windows_[i] = (i - strip) % 2 == 0 ? Window::even : Window::odd;
+      if (is_triangle(static_cast<Index>(i))) base_windows_.push_back(static_cast<Index>(i));
+    }
+    positions_ = mesh.position.data;
+  }
+
+  bool is_triangle(Index window) const {
+    if (windows_[window] == Window::none) return false;
+    const auto [a, b, c] = vertices_of({window, window + 1, window + 2});
+    return a != b && b != c && a != c;
+  }
+  /// Entries of the corners, wound as the mesh.
+  std::array<Index, 3> corners_of(Index window) const {
+    if (windows_[window] == Window::even) return {window, window + 1, window + 2};
+    return {window + 1, window, window + 2};
+  }
+  FaceFinder::Triangle vertices_of(const std::array<Index, 3>& entries) const {
+    return {replay_.vertex_at(entries[0]), replay_.vertex_at(entries[1]),
+            replay_.vertex_at(entries[2])};
+  }
+  FaceFinder::Triangle numbers_of(Index window) const {
+    FaceFinder::Triangle t = vertices_of(corners_of(window));
+    for (Index& v : t) v = vertex_number_[v];
+    return t;
+  }
+
+  void write_position(TextWriter& out, ByteView element) const {
+    const Attribute& position = mesh_->position;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (c > 0) out.character(' ');
+      if (c < position.count)
+        out.component(position.type, element.data() + c * size_of(position.type));
+      else
+        out.character('0');
+    }
+  }
+  void write_coordinates(TextWriter& out, Index entry) const {
+    const ByteView element = texture_->element(replay_.resolved()[entry]);
+    for (std::size_t c = 0; c < 2; ++c) {
+      if (c > 0) out.character(' ');
+      if (c < texture_->count)
+        out.component(texture_->type, element.data() + c * size_of(texture_->type));
+      else
+        out.character('0');
+    }
+  }
+  void write_indexed_coordinates(TextWriter& out, Index entry) const {
+    out.character(' ');
+    out.integer(slot_number_[slot_[entry]]);
+    out.character(' ');
+    write_coordinates(out, entry);
+  }
+
+  void move_parent(Index split) {
+    if (mesh_->placement != Placement::free) return;
+    const std::size_t bytes = mesh_->position.element_bytes();
+    std::memcpy(positions_.data() + mesh_->vsplits[split].parent * bytes,
+                mesh_->parent_position.data() + split * bytes, bytes);
+  }
+
+  /// The windows that the last step changed: those that are faces now, those that were already.
+  void sort_windows(Index vertex) {
+    added_.clear();
+    changed_.clear();
+    Index done = 0;  // windows below this one are sorted already
+    for (const Index entry : replay_.touched())
+      for (Index window = std::max(done, entry < 2 ? 0 : entry - 2); window <= entry; ++window) {
+        done = window + 1;
+        if (!is_triangle(window)) continue;
+        const FaceFinder::Triangle t = vertices_of({window, window + 1, window + 2});
+        if (face_of_[window] == kNone)
+          added_.push_back(window);
+        else if (std::ranges::find(t, vertex) != t.end())
+          changed_.push_back(window);
+      }
+  }
+
+  /// Gives the corner's texture index a number and takes its coordinates; false when it has one.
+  bool announce(Index entry, Numbering& numbers) {
+    Index& number = slot_number_[slot_[entry]];
+    if (number != kNone) return false;
+    number = ++numbers.slots;
+    slot_wedge_[slot_[entry]] = replay_.resolved()[entry];
+    return true;
+  }
+
+  void add_face(Index window, Numbering& numbers) {
+    face_of_[window] = numbers.faces++;
+    if (slot_.empty()) return;
+    numbers.window_of.resize(numbers.faces);
+    numbers.window_of[face_of_[window]] = window;
+    numbers.finder.insert(face_of_[window], numbers_of(window));
+  }
+
+  void write_added(TextWriter& out, Numbering& numbers) {
+    out.integer(std::uint64_t{added_.size()});
+    for (const Index window : added_) {
+      write_triple(out, numbers_of(window));
+      add_face(window, numbers);
+    }
+  }
+
+  /// Names the faces as they were before the record.
+  void write_changed(TextWriter& out, Numbering& numbers, Index vertex, Index parent) {
+    out.character(' ');
+    out.integer(std::uint64_t{changed_.size()});
+    for (const Index window : changed_) {
+      const FaceFinder::Triangle after = numbers_of(window);
+      FaceFinder::Triangle before = after;
+      std::ranges::replace(before, vertex_number_[vertex], vertex_number_[parent]);
+      write_triple(out, before);
+      if (slot_.empty()) continue;
+      const Index face = numbers.finder.take(before);
+      if (face != face_of_[window]) exchange(window, face, numbers);
+      numbers.finder.insert(face, after);
+    }
+  }
+
+  /// A reader takes `face` for the one in this window: from now on it is.
+  void exchange(Index window, Index face, Numbering& numbers) {
+    const Index other = numbers.window_of[face];
+    std::swap(numbers.window_of[face], numbers.window_of[face_of_[window]]);
+    std::swap(face_of_[window], face_of_[other]);
+    numbers.faces_exchanged = true;
+  }
+
+  void write_texture_changes(TextWriter& out, Numbering& numbers) {
+    if (slot_.empty()) return out.text(" 0 0 0");
+    std::vector<Index> announced, moved;  // an entry for each texture index
+    for (const Index window : added_)
+      for (const Index entry : corners_of(window))
+        if (announce(entry, numbers)) announced.push_back(entry);
+    for (const Index entry : replay_.touched()) {
+      const Index slot = slot_[entry], wedge = replay_.resolved()[entry];
+      if (slot_number_[slot] == kNone || slot_wedge_[slot] == wedge) continue;
+      if (!std::ranges::equal(texture_->element(slot_wedge_[slot]), texture_->element(wedge)))
+        moved.push_back(entry);
+      slot_wedge_[slot] = wedge;
+    }
+    out.character(' ');
+    out.integer(std::uint64_t{added_.size()});
+    for (const Index window : added_) {
+      const std::array<Index, 3> entries = corners_of(window);
+      write_triple(out, {slot_number_[slot_[entries[0]]], slot_number_[slot_[entries[1]]],
+                         slot_number_[slot_[entries[2]]]});
+    }
+    for (const std::vector<Index>& list : {announced, moved}) {
+      out.character(' ');
+      out.integer(std::uint64_t{list.size()});
+      for (const Index entry : list) write_indexed_coordinates(out, entry);
+    }
+  }
+
+  void write_triple(TextWriter& out, const FaceFinder::Triangle& t) const {
+    for (const Index v : t) {
+      out.character(' ');
+      out.integer(v);
+    }
+  }
+
+  const ProgressiveMesh* mesh_;
+  const Attribute* texture_;
+  std::vector<Index> slot_;         // texture index of each entry; empty: no texture
+  std::vector<Index> slot_number_;  // in the file
+  std::vector<Index> slot_wedge_;   // whose coordinates were written last
+  Replay replay_;
+  std::vector<Window> windows_;  // that start at each entry
+  std::vector<Index> face_of_;   // the face of each window
+  std::vector<Index> base_windows_, added_, changed_;
+  std::vector<Index> vertex_number_;  // in the file
+  Bytes positions_;                   // where vertices stand now
+};
+
+/// Collects what a text file has no place for.
+class Losses {
+ public:
+  void add(bool lost, std::string phrase) {
+    if (lost && std::ranges::find(list_, phrase) == list_.end()) list_.push_back(std::move(phrase));
+  }
+  void count(std::uint64_t n, const char* phrase) { add(n > 0, std::to_string(n) + phrase); }
+  std::vector<std::string> take() && { return std::move(list_); }
+
+ private:
+  std::vector<std::string> list_;
+};
+
+void note_scene(const ProgressiveStrips& strips, Losses& losses) {
+  const Scene& scene = strips.scene;
+  losses.add(strips.meshes.size() > 1, "that there are several meshes: they are joined");
+  losses.add(!scene.nodes.empty(), "scene nodes");
+  losses.add(!scene.materials.empty(), "materials");
+  losses.add(!scene.images.empty(), "images");
+  losses.add(!scene.foreign.empty(), "what the source format keeps for itself");
+  losses.add(!strips.unknown.empty(), "chunks that nobody knows");
+}
+
+void note_attributes(const ProgressiveMesh& mesh, bool textured, Losses& losses) {
+  losses.add(mesh.position.count > 3, "position components past the third");
+  losses.add(mesh.position.count < 3, "that positions have fewer than three components");
+  losses.add(mesh.position.normalized, "normalization of positions");
+  losses.add(mesh.position.semantic != "POSITION", "the semantic " + mesh.position.semantic);
+  const Attribute* texture = textured ? texture_of(mesh) : nullptr;
+  for (const Attribute& a : mesh.wedge_attributes)
+    losses.add(&a != texture, "attribute " + a.semantic);
+  if (texture != nullptr) {
+    losses.add(texture->count != 2, "that TEXCOORD_0 has not two components");
+    losses.add(texture->normalized, "normalization of TEXCOORD_0");
+  }
+  for (const Attribute& a : mesh.face_attribute_formats)
+    losses.add(true, "face attribute " + a.semantic);
+}
+
+void note_faces(const ProgressiveStrips& strips, Losses& losses) {
+  std::uint64_t polygons = 0, lines = 0, points = 0, degenerate = 0;
+  for (const ProgressiveMesh& mesh : strips.meshes)
+    for (Index f = 0; f < mesh.faces.count(); ++f) {
+      const FaceKind kind = mesh.groups[mesh.faces.group[f]].kind;
+      const bool shown = mesh.faces.replaced_first[f] != mesh.faces.replaced_first[f + 1];
+      lines += kind == FaceKind::lines;
+      points += kind == FaceKind::points;
+      polygons += kind == FaceKind::polygons && shown;
+      degenerate += kind == FaceKind::polygons && !shown;
+    }
+  losses.count(polygons, " polygons: their triangles are written");
+  losses.count(lines, " lines");
+  losses.count(points, " points");
+  losses.count(degenerate, " degenerate faces");
+}
+
+void note_meshes(const ProgressiveStrips& strips, bool textured, Losses& losses) {
+  for (const ProgressiveMesh& mesh : strips.meshes) {
+    losses.add(!mesh.name.empty(), "names of meshes");
+    losses.add(mesh.groups.size() > 1, "groups");
+    losses.add(std::ranges::any_of(mesh.groups, [](const Group& g) { return !g.name.empty(); }),
+               "names of groups");
+    losses.add(std::ranges::any_of(mesh.groups, [](const Group& g) { return g.material != kNone; }),
+               "which group has which material");
+    note_attributes(mesh, textured, losses);
+    losses.add(mesh.order != OriginalOrder{}, "original order");
+    losses.add(!mesh.digest.empty(), "digest");
+  }
+}
+
+/// The type of an attribute when all meshes agree, else the one that holds them all.
+template <class AttributeOf>
+ComponentType common_type(const ProgressiveStrips& strips, AttributeOf&& attribute_of) {
+  if (strips.meshes.empty()) return ComponentType::f32;
+  const ComponentType first = attribute_of(strips.meshes.front())->type;
+  const bool all = std::ranges::all_of(
+      strips.meshes, [&](const ProgressiveMesh& m) { return attribute_of(m)->type == first; });
+  return all ? first : ComponentType::f64;
+}
+
+/// The first line, once it is known what follows.
+Bytes header(const ProgressiveStrips& strips, bool textured, const Numbering& numbers,
+             Losses& losses) {
+  const auto position_of = [](const ProgressiveMesh& m) { return &m.position; };
+  std::uint64_t vsplits = 0;
+  for (const ProgressiveMesh& mesh : strips.meshes) vsplits += mesh.vsplits.size();
+  TextWriter out;
+  out.text("# pstrips text 1.0 vertices=");
+  out.integer(numbers.vertices);
+  out.text(" faces=");
+  out.integer(numbers.faces);
+  out.text(" vsplits=");
+  out.integer(vsplits);
+  const auto write_type = [&](std::string_view key, auto&& attribute_of) {
+    const ComponentType type = common_type(strips, attribute_of);
+    out.text(key);
+    out.text(name_of(type));
+    for (const ProgressiveMesh& mesh : strips.meshes)
+      losses.add(attribute_of(mesh)->type != type, "component types that differ between meshes");
+  };
+  write_type(" position=", position_of);
+  if (textured) write_type(" texture=", texture_of);
+  out.character('\n');
+  return std::move(out).take();
+}
+
+}  // namespace
+
+Result<TextFile> write_text(const ProgressiveStrips& strips, const Limits& limits) {
+  const bool textured =
+      !strips.meshes.empty() &&
+      std::ranges::all_of(strips.meshes, [](const auto& m) { return texture_of(m) != nullptr; });
+  Losses losses;
+  losses.add(true, "triangle strips, packets and errors of levels");
+  note_scene(strips, losses);
+  note_meshes(strips, textured, losses);
+  note_faces(strips, losses);
+
+  std::uint64_t key = 0;
+  std::vector<MeshWriter> meshes;
+  for (Index m = 0; m < strips.meshes.size(); ++m) {
+    key ^= fingerprint(std::as_bytes(std::span(strips.meshes[m].places)));
+    Result<MeshWriter> mesh =
+        MeshWriter::make(strips.meshes[m], m, textured, limits.memory_bytes / kBytesPerEntry);
+    if (!mesh) return tl::unexpected<Error>(mesh.error());
+    meshes.push_back(std::move(*mesh));
+  }
+  TextWriter out;
+  Numbering numbers(key);
+  for (MeshWriter& mesh : meshes) mesh.write_vertices(out, numbers);
+  if (textured)
+    for (MeshWriter& mesh : meshes) mesh.write_texture(out, numbers);
+  for (MeshWriter& mesh : meshes) mesh.write_faces(out, numbers);
+  for (const Packet& packet : strips.packets)
+    for (Index i = packet.first_vsplit; i < packet.first_vsplit + packet.vsplits; ++i) {
+      auto outcome = meshes[packet.mesh].write_record(out, numbers, i);
+      if (out.size() > limits.memory_bytes) outcome = Replay::Outcome::too_much;
+      if (outcome != Replay::Outcome::applied)
+        return tl::unexpected<Error>(error_of(outcome, packet.mesh, i));
+    }
+  losses.add(numbers.faces_exchanged,
+             "which texture coordinates go with which of several faces on the same vertices");
+  losses.add(std::ranges::any_of(meshes, [](const auto& m) { return !m.wedges_survive(); }),
+             "wedges that are not the corners' vertices and texture coordinates");
+  Bytes bytes = header(strips, textured, numbers, losses);
+  const Bytes body = std::move(out).take();
+  bytes.insert(bytes.end(), body.begin(), body.end());
+  return TextFile{std::move(bytes), std::move(losses).take()};
+}
+
+}  // namespace pstrip
