@@ -117,7 +117,7 @@ struct UnknownChunk {
   friend bool operator==(const UnknownChunk&, const UnknownChunk&) = default;
 };
 
-/// A whole file in memory. [spec/model.md §2]
+/// A whole file in memory. [spec/model.md §1]
 struct ProgressiveStrips {
   std::string generator;  ///< who wrote the file
   Scene scene;
