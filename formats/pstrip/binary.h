@@ -14,7 +14,7 @@ namespace pstrip {
 
 // The binary variant of progressive strips, plain profile. [spec/container.md]
 
-/// What PSHD says. [spec/container.md §4]
+/// What PSHD says. [spec/container.md §5.1]
 struct FileHeader {
   std::uint16_t version_major = 1;
   std::uint16_t version_minor = 0;
@@ -33,7 +33,7 @@ struct FileHeader {
 };
 
 /// One row of PIDX: where a BASE or PCKT chunk stands and what its mesh has after it.
-/// [spec/container.md §7]
+/// [spec/container.md §6]
 struct IndexRow {
   std::uint64_t offset = 0;  ///< of the chunk, from the start of the file
   std::uint64_t bytes = 0;   ///< of the whole chunk, type to CRC

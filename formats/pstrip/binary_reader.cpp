@@ -12,7 +12,8 @@ namespace pstrip {
 using namespace layout;
 
 struct BinaryParser::State {
-  State(const Limits& l, std::uint64_t bytes) : limits(l), known_bytes(bytes) {
+  /// reservable  twice the file: a vsplit takes more room in memory than its fields in the file
+  State(const Limits& l, std::uint64_t file_bytes) : limits(l), reservable(2 * file_bytes) {
     strips.complete = false;
   }
 
@@ -20,13 +21,14 @@ struct BinaryParser::State {
   enum class Stage : std::uint8_t { header, scene, materials, meshes, bases, packets, tail, end };
 
   Limits limits;
-  std::uint64_t known_bytes;  ///< the file's size, or 0
+  std::uint64_t reservable;  ///< bytes that may still be allocated ahead of what is there
 
   ProgressiveStrips strips;
   std::optional<FileHeader> header;
   std::vector<IndexRow> rows;
   std::vector<MeshCounts> counts;
-  std::vector<PacketStart> reached;  ///< per mesh, what its packets brought
+  std::vector<std::uint64_t> packet_array_bytes;  ///< per mesh, in all its packets, as PIDX says
+  std::vector<PacketStart> reached;               ///< per mesh, what its packets brought
   std::vector<std::uint8_t> embedded;
   std::optional<Error> error;
 
@@ -312,9 +314,16 @@ Result<void> BinaryParser::State::read_index(ReadIo& io) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].mesh >= h.meshes || (i < h.meshes && (rows[i].mesh != i || rows[i].vsplits != 0)))
       return corrupt("index row names the wrong mesh");
+    const std::uint64_t head = i < h.meshes ? kBaseHeadBytes : kPacketHeadBytes;
+    if (rows[i].bytes < chunk_bytes(head) || rows[i].bytes > h.file_bytes ||
+        rows[i].offset > h.file_bytes - rows[i].bytes)
+      return corrupt("index row points outside the file");
     if (i < h.meshes && rows[i].vertices != counts[i].base_vertices)
       return corrupt("index row contradicts the base it points to");
   }
+  packet_array_bytes.resize(h.meshes);
+  for (std::size_t i = h.meshes; i < rows.size(); ++i)
+    packet_array_bytes[rows[i].mesh] += rows[i].bytes - chunk_bytes(kPacketHeadBytes);
   for (const ProgressiveMesh& mesh : strips.meshes) reached.push_back(first_packet(mesh));
   if (h.meshes == 0) {
     stage = Stage::tail;
@@ -331,14 +340,31 @@ const IndexRow* BinaryParser::State::next_row(Index mesh) const {
 
 void BinaryParser::State::reserve(Index index) {
   ProgressiveMesh& mesh = strips.meshes[index];
-  std::uint64_t bytes = mesh.vertices * mesh.position.element_bytes();
-  for (const Attribute& a : mesh.wedge_attributes) bytes += mesh.wedges * a.element_bytes();
-  // Only what the file's own size can justify.
-  if (known_bytes < offset || bytes > known_bytes - offset) return;
-  mesh.position.data.reserve(mesh.vertices * mesh.position.element_bytes());
-  for (Attribute& a : mesh.wedge_attributes) a.data.reserve(mesh.wedges * a.element_bytes());
-  const Index vsplits = counts[index].vsplits;
-  if (vsplits <= known_bytes / sizeof(Vsplit)) mesh.vsplits.reserve(vsplits);
+  // Only what the file's own size can justify, all meshes together.
+  const auto reserve_within_budget = [&](auto& list, std::uint64_t n) {
+    const std::uint64_t bytes = n * sizeof(list[0]);
+    if (bytes > reservable) return;
+    reservable -= bytes;
+    list.reserve(n);
+  };
+  const std::uint64_t vsplits = counts[index].vsplits, wedges = mesh.wedges - mesh.base_wedges;
+  const std::uint64_t position_bytes = mesh.position.element_bytes();
+  reserve_within_budget(mesh.position.data, mesh.vertices * position_bytes);
+  std::uint64_t wedge_bytes = sizeof(Index);
+  for (Attribute& a : mesh.wedge_attributes) {
+    reserve_within_budget(a.data, mesh.wedges * a.element_bytes());
+    wedge_bytes += a.element_bytes();
+  }
+  reserve_within_budget(mesh.vsplits, vsplits);
+  reserve_within_budget(mesh.wedge_places, wedges);
+  const bool moves = mesh.placement == Placement::free;
+  if (moves) reserve_within_budget(mesh.parent_position, vsplits * position_bytes);
+  // What is left of the packets is carried wedges, few, and places.
+  const std::uint64_t fixed =
+      vsplits * ((mesh.single_wedges ? 1 : 3) * sizeof(Index) + position_bytes * (moves ? 2 : 1)) +
+      wedges * wedge_bytes;
+  if (packet_array_bytes[index] > fixed)
+    reserve_within_budget(mesh.places, (packet_array_bytes[index] - fixed) / sizeof(Index));
 }
 
 Result<void> BinaryParser::State::read_base(ReadIo& io) {

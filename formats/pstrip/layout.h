@@ -12,7 +12,7 @@
 #include "formats/pstrip/parts.h"
 
 // Internal to formats/pstrip: the wire layout of each payload, once, for reading, writing, sizing
-// and listing. [spec/container.md §4 to §10]
+// and listing. [spec/container.md §5 to §9]
 //
 // A `…_fields(io, v)` function names the fields of a payload in file order; what happens to them
 // is the Io's business: ReadIo fills v, WriteIo writes v, SizeIo adds up the bytes, PartIo notes
@@ -323,6 +323,8 @@ struct BaseHead {
   Index mesh = 0, vertices = 0, wedges = 0, map_entries = 0;
 };
 
+inline constexpr std::uint64_t kBaseHeadBytes = 16;
+
 template <class Io, class H>
 void base_head_fields(Io& io, H& h) {
   io.number(h.mesh);
@@ -351,6 +353,8 @@ void base_array_fields(Io& io, const BaseHead& h, M& mesh) {
 struct PacketHead {
   Index mesh = 0, first_vsplit = 0, vsplits = 0, wedges = 0, carried = 0, places = 0;
 };
+
+inline constexpr std::uint64_t kPacketHeadBytes = 24;
 
 template <class Io, class H>
 void packet_head_fields(Io& io, H& h) {

@@ -379,6 +379,35 @@ TEST(Binary, AChunkThatRunsPastTheDeclaredSizeIsCorruptAtOnce) {
   EXPECT_EQ(fed.error().offset, base.offset);
 }
 
+// Every count of the headers at its largest and no limits at all: the base is refused for its
+// length, without memory for what it promises.
+TEST(Binary, ConsistentPromisesOfBillionsCostNothing) {
+  const ProgressiveStrips strips = random_progressive(5, {.vsplits = 0});
+  Bytes file = write_binary(strips).value();
+  constexpr std::uint32_t kMany = kMaxCount;
+  const std::span<std::byte> header = payload_of(file, kHeaderChunk);
+  for (const std::size_t total : {16, 24, 48}) put_u32(header, total, kMany);
+  const std::span<std::byte> mesh = payload_of(file, kMeshChunk);
+  const std::size_t counts = mesh.size() - 9 * 4;
+  for (const std::size_t count : {0, 1, 4, 7, 8}) put_u32(mesh, counts + 4 * count, kMany);
+  const Index groups = static_cast<Index>(strips.meshes[0].groups.size());
+  put_u32(mesh, counts - 4,
+          kMany - static_cast<Index>(strips.meshes[0].base_map.size()) +
+              strips.meshes[0].group_entries[groups - 1]);
+  put_u32(payload_of(file, kIndexChunk), 8 + 24, kMany);
+  const std::span<std::byte> base = payload_of(file, kBaseChunk);
+  for (const std::size_t count : {1, 2, 3}) put_u32(base, 4 * count, kMany);
+  seal(file);
+  constexpr std::uint64_t kAll = ~std::uint64_t{0};
+  const Limits none{kAll, kAll, kAll, kAll, kAll, kAll, 0};
+  BinaryParser parser(none, file.size());
+  const auto fed = parser.feed(file);
+  ASSERT_FALSE(fed);
+  EXPECT_EQ(fed.error().message, "BASE is not as long as its counts say");
+  EXPECT_EQ(parser.strips().meshes[0].position.data.capacity(), 0u);
+  EXPECT_EQ(parser.strips().meshes[0].base_map.capacity(), 0u);
+}
+
 TEST(Binary, LimitsAreAnAnswerOfTheirOwn) {
   const Bytes file = write_binary(rich_strips()).value();
   for (std::uint64_t Limits::*field :
