@@ -27,7 +27,9 @@ class Annealer {
         random_(options.seed),
         strip_price_(static_cast<int>(std::min(options.strip_price, 1000u))),
         budget_(std::uint64_t{options.effort} * paths.triangle_count()),
-        walk_moves_(options.effort < kLongRun ? 6 : 12) {}
+        walk_moves_(options.effort < kLongRun ? 4 : 8),
+        first_step_(options.effort < kShortRun ? 12 : 0),
+        race_steps_(options.effort < kShortRun ? 100 : 5000) {}
 
   void run() {
     const LinkedPaths start = paths_;
@@ -43,12 +45,15 @@ class Annealer {
   }
 
  private:
+  static constexpr std::uint32_t kShortRun =
+      10;  // too short to mend what a high temperature breaks
   static constexpr std::uint32_t kLongRun = 100;
-  static constexpr int kQuenchMoves = 16;
+  static constexpr int kQuenchMoves = 11;
 
   void set_temperature() {
-    const std::uint64_t steps = kCooling.size() - 1;
-    const std::uint64_t at = moves_ * steps * 256 / budget_, step = at / 256, part = at % 256;
+    const std::uint64_t steps = kCooling.size() - 1 - first_step_;
+    const std::uint64_t at = first_step_ * 256 + moves_ * steps * 256 / budget_;
+    const std::uint64_t step = at / 256, part = at % 256;
     const std::uint64_t q = (kCooling[step] * (256 - part) + kCooling[step + 1] * part) / 256;
     std::uint64_t power = kOne - 1;
     for (std::uint32_t& chance : chance_) {
@@ -85,18 +90,24 @@ class Annealer {
   void walk_end(Index t, int moves) {
     for (; moves > 0 && paths_.is_end(t); --moves) {
       ++moves_;
-      const HalfEdge h = LinkedPaths::half_edge(t, random_.below(3));
-      if (paths_.is_linked(h) || !paths_.has_opposite(h)) continue;
+      const HalfEdge h = random_free_edge(t);
+      if (!paths_.has_opposite(h)) continue;
       const Index neighbor = LinkedPaths::triangle_of(paths_.opposite(h));
       if (paths_.is_end(neighbor) && try_join(h, neighbor)) continue;
       if (!paths_.is_single(neighbor)) t = try_slide(h, neighbor);
     }
   }
 
+  HalfEdge random_free_edge(Index end) {
+    if (paths_.is_single(end)) return LinkedPaths::half_edge(end, random_.below(3));
+    const HalfEdge link = paths_.first_link(end);
+    return random_.below(2) != 0 ? LinkedPaths::next(link) : LinkedPaths::previous(link);
+  }
+
   bool try_join(HalfEdge h, Index neighbor) {
     const int rise = paths_.swaps_with(h) - strip_price_;
     if (!accepts(rise)) return false;
-    if (paths_.on_same_path(LinkedPaths::triangle_of(h), neighbor)) return false;
+    if (paths_.on_same_path(LinkedPaths::triangle_of(h), neighbor, race_steps_)) return false;
     paths_.flip(h);
     cost_ += rise;
     return true;
@@ -110,7 +121,7 @@ class Annealer {
     const int before = paths_.swaps_with(cut);
     paths_.flip(cut);
     const int rise = paths_.swaps_with(h) - before;
-    if (!accepts(rise) || (kept != kNone && paths_.leads_to(kept, t))) {
+    if (!accepts(rise) || (kept != kNone && paths_.leads_to(kept, t, race_steps_))) {
       paths_.flip(cut);
       return t;
     }
@@ -125,6 +136,8 @@ class Annealer {
   int strip_price_;
   std::uint64_t budget_;
   int walk_moves_;
+  std::uint64_t first_step_;
+  std::uint32_t race_steps_;
   std::uint64_t moves_ = 0;
   std::int64_t cost_ = 0;                   // against the start
   std::array<std::uint32_t, 16> chance_{};  // of accepting a rise in cost, times 2^32

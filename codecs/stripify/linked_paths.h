@@ -27,6 +27,9 @@ class LinkedPaths {
   static constexpr Index triangle_of(HalfEdge h) { return h >> 2; }
   static constexpr HalfEdge half_edge(Index t, Index k) { return 4 * t + k; }
 
+  static constexpr HalfEdge next(HalfEdge h) { return h + ((h & 3) == 2 ? ~Index{1} : 1); }
+  static constexpr HalfEdge previous(HalfEdge h) { return h + ((h & 3) == 0 ? 2 : ~Index{0}); }
+
   bool has_opposite(HalfEdge h) const { return opposite_[h] != kNone; }
   HalfEdge opposite(HalfEdge h) const { return opposite_[h]; }
   bool is_linked(HalfEdge h) const { return (linked_[h >> 2] >> (h & 3) & 1) != 0; }
@@ -56,13 +59,14 @@ class LinkedPaths {
   }
 
   /// Whether the path that leaves a triangle over its link `exit` comes to t. Follows two paths at
-  /// once, from there and from t, so that the shorter one decides the cost.
+  /// once, from there and from t, so that the shorter one decides the cost. True as well when
+  /// neither has ended after max_steps.
   /// Precondition: is_end(t), and t is not the triangle of `exit`.
-  bool leads_to(HalfEdge exit, Index t) const {
+  bool leads_to(HalfEdge exit, Index t, std::uint32_t max_steps = ~0u) const {
     if (linked_[t] == 0) return false;
     const Index start = exit >> 2;
     HalfEdge ahead = opposite_[exit], from_t = opposite_[first_link(t)];
-    for (;;) {
+    for (; max_steps > 0; --max_steps) {
       if (ahead >> 2 == t) return true;
       if (from_t >> 2 == start) return from_t == exit;
       const HalfEdge next = other_link(ahead), next_from_t = other_link(from_t);
@@ -70,16 +74,14 @@ class LinkedPaths {
       ahead = opposite_[next];
       from_t = opposite_[next_from_t];
     }
+    return true;
   }
   /// Precondition: s and t are ends.
-  bool on_same_path(Index s, Index t) const {
-    return s == t || (linked_[s] != 0 && leads_to(first_link(s), t));
+  bool on_same_path(Index s, Index t, std::uint32_t max_steps = ~0u) const {
+    return s == t || (linked_[s] != 0 && leads_to(first_link(s), t, max_steps));
   }
 
  private:
-  static constexpr HalfEdge next(HalfEdge h) { return h + ((h & 3) == 2 ? ~Index{1} : 1); }
-  static constexpr HalfEdge previous(HalfEdge h) { return h + ((h & 3) == 0 ? 2 : ~Index{0}); }
-
   // Around the origin of h: the two edges on either side of it.
   int swaps_around(HalfEdge h, HalfEdge o) const {
     const HalfEdge before = previous(h), after = next(o);
