@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
+#include "tests/formats/obj/models.h"
 #include "tests/formats/obj/support.h"
 #include "tests/support/paths.h"
 
@@ -14,11 +14,6 @@ namespace pstrip::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string load(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 ReadFile beside(const fs::path& model) {
   return [dir = model.parent_path()](const std::string& name) -> Result<Bytes> {
@@ -59,19 +54,6 @@ struct Exception {
 constexpr Exception kExceptions[] = {
     {"nasty/broken-obj/tinyobj/test-nan.obj", 76, 36, "not counted for its 1.#IND"},
 };
-
-std::vector<fs::path> obj_files(const fs::path& root) {
-  std::vector<fs::path> out;
-  for (const auto& entry : fs::recursive_directory_iterator(root)) {
-    std::string extension = entry.path().extension().string();
-    std::ranges::transform(extension, extension.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    });
-    if (entry.is_regular_file() && extension == ".obj") out.push_back(entry.path());
-  }
-  std::ranges::sort(out);
-  return out;
-}
 
 std::map<std::string, std::pair<std::string, std::string>> manifest(const fs::path& root) {
   std::map<std::string, std::pair<std::string, std::string>> out;
