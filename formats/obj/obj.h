@@ -77,6 +77,7 @@ struct ObjFiles {
 /// if it came from read_obj. The .mtl text is the original one as long as it still says what the
 /// materials are.
 ///
+/// model     its meshes are consistent (find_inconsistency), its indices name what is there
 /// mtl_name  for `mtllib`; relative, see ReadFile; may be empty: then no .mtl is made
 /// errors    bad_argument for an mtl_name that a reader would refuse
 Result<ObjFiles> write_obj(const Model& model, std::string mtl_name);

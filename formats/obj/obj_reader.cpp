@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "formats/obj/mtl.h"
@@ -405,18 +406,10 @@ class ObjReader {
         if (read && !*read) return false;
         found |= read.has_value();
       }
-      if (!found && !is_line_of(missing_, name) && !keep_line(missing_, name)) return false;
+      if (found || !missing_names_.emplace(name).second) continue;
+      if (!keep_line(missing_, name)) return false;
     }
     return true;
-  }
-
-  static bool is_line_of(std::string_view lines, std::string_view line) {
-    while (!lines.empty()) {
-      const std::size_t end = lines.find('\n');
-      if (lines.substr(0, end) == line) return true;
-      lines.remove_prefix(end + 1);
-    }
-    return false;
   }
 
   /// Nothing: there is no such file. False: an error. A library that was read before counts once.
@@ -686,6 +679,7 @@ class ObjReader {
   bool header_ended_ = false, statements_ = false;
   std::optional<std::uint64_t> first_unknown_;
   std::string header_, notes_, missing_, mtl_;
+  std::set<std::string> missing_names_;
   std::map<std::string, bool> companions_;  ///< by path; whether it could be read
 
   Referenced vertices_, texcoords_, normals_;

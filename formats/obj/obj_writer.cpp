@@ -30,10 +30,9 @@ void append_component(std::string& out, const Attribute& a, std::size_t i, std::
   }
 }
 
-/// One of the `vt` or `vn` blocks: which line each wedge refers to, 1-based in the file; 0: none.
-struct Tuples {
-  std::vector<std::uint64_t> line;
-};
+/// For each wedge the number of its `vt` or `vn` line in the file, from 1; 0: it has none. Empty:
+/// no wedge has one.
+using TupleLines = std::vector<std::uint64_t>;
 
 constexpr std::uint64_t hash_of(ByteView bytes) {  // FNV-1a; collisions cost time, no more
   std::uint64_t hash = 0xcbf2'9ce4'8422'2325;
@@ -89,7 +88,7 @@ class ObjWriter {
       text.remove_prefix(std::min(end + 1, text.size()));
       if (prefix != "#" || !line.starts_with('#')) out_ += prefix;
       out_ += line;
-      prefix == "mtllib " ? end_line() : void(out_ += '\n');
+      end_line();
     }
   }
 
@@ -205,8 +204,10 @@ class ObjWriter {
       else
         drop(a.semantic);
     }
-    if (plan.texw && (!plan.texcoord || plan.texcoord->count > 2))
-      drop(kObjTexW), plan.texw = nullptr;
+    if (plan.texw && (!plan.texcoord || plan.texcoord->count > 2)) {
+      drop(kObjTexW);
+      plan.texw = nullptr;
+    }
     plan.used.assign(mesh.wedge_count(), false);
     for (const Index w : mesh.corners) plan.used[w] = true;
     plan.cloud = mesh.corners.empty() && model_.meshes.size() == 1 &&
@@ -263,8 +264,9 @@ class ObjWriter {
     }
     const Plan plan = plan_mesh(mesh);
     for (Index v = 0; v < mesh.vertex_count(); ++v) write_vertex(mesh, plan, v);
-    const Tuples texcoords = write_tuples(mesh, plan, plan.texcoord, kHasTexcoord, texcoord_count_);
-    const Tuples normals = write_tuples(mesh, plan, plan.normal, kHasNormal, normal_count_);
+    const TupleLines texcoords =
+        write_tuples(mesh, plan, plan.texcoord, kHasTexcoord, texcoord_count_);
+    const TupleLines normals = write_tuples(mesh, plan, plan.normal, kHasNormal, normal_count_);
     write_faces(mesh, plan, name, texcoords, normals);
     vertex_count_ += mesh.vertex_count();
   }
@@ -304,11 +306,11 @@ class ObjWriter {
   }
 
   /// Writes each distinct tuple once, in order of first use; a cloud's one for each vertex.
-  Tuples write_tuples(const Mesh& mesh, const Plan& plan, const Attribute* a, ObjPresent what,
-                      std::uint64_t& count) {
-    Tuples out;
+  TupleLines write_tuples(const Mesh& mesh, const Plan& plan, const Attribute* a, ObjPresent what,
+                          std::uint64_t& count) {
+    TupleLines out;
     if (!a) return out;
-    out.line.assign(mesh.wedge_count(), 0);
+    out.assign(mesh.wedge_count(), 0);
     if (plan.cloud) {
       for (Index w = 0; w < mesh.wedge_count(); ++w) write_tuple(plan, *a, w);
       return out;
@@ -335,7 +337,7 @@ class ObjWriter {
         write_tuple(plan, *a, w);
         ++count;
       }
-      out.line[w] = first_of[w] == w ? count : out.line[first_of[w]];
+      out[w] = first_of[w] == w ? count : out[first_of[w]];
     }
     return out;
   }
@@ -354,7 +356,7 @@ class ObjWriter {
   // Faces.
 
   void write_faces(const Mesh& mesh, const Plan& plan, const std::string& mesh_object,
-                   const Tuples& texcoords, const Tuples& normals) {
+                   const TupleLines& texcoords, const TupleLines& normals) {
     Index group = kNone;
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const auto corners = mesh.face(f);
@@ -366,10 +368,7 @@ class ObjWriter {
         group = mesh.group_of(f);
         enter_group(mesh.groups[group], mesh_object);
       }
-      if (plan.smoothing)
-        enter_smoothing(*plan.smoothing, f);
-      else if (smoothing_ > 0)
-        write_statement("s", "off"), smoothing_ = 0;
+      enter_smoothing(plan.smoothing, f);
       const FaceKind kind = mesh.groups[group].kind;
       out_ += kind == FaceKind::polygons ? 'f' : kind == FaceKind::lines ? 'l' : 'p';
       for (const Index w : corners) write_corner(mesh, w, texcoords, normals);
@@ -378,6 +377,7 @@ class ObjWriter {
   }
 
   void enter_group(const Group& group, const std::string& mesh_object) {
+    assert(group.material == kNone || group.material < material_names_.size());
     const obj::GroupName name = obj::split_group_name(group.name);
     const std::string object = obj::clean_name(name.object);
     change(object_, object.empty() ? mesh_object : object, "o");
@@ -392,19 +392,21 @@ class ObjWriter {
     write_statement(word, state);
   }
 
-  void enter_smoothing(const Attribute& smoothing, Index face) {
+  /// A mesh that has no smoothing groups only ends that of the one before.
+  void enter_smoothing(const Attribute* smoothing, Index face) {
     std::uint32_t value = 0;
-    std::memcpy(&value, smoothing.element(face).data(), sizeof value);
-    if (smoothing_ == value) return;
+    if (smoothing) std::memcpy(&value, smoothing->element(face).data(), sizeof value);
+    if (smoothing_ == value || (!smoothing && smoothing_ < 0)) return;
     smoothing_ = value;
     write_statement("s", value == 0 ? "off" : std::to_string(value));
   }
 
-  void write_corner(const Mesh& mesh, Index w, const Tuples& texcoords, const Tuples& normals) {
+  void write_corner(const Mesh& mesh, Index w, const TupleLines& texcoords,
+                    const TupleLines& normals) {
     out_ += ' ';
     append_index(out_, vertex_count_ + mesh.vertex_of(w) + 1);
-    const std::uint64_t vt = texcoords.line.empty() ? 0 : texcoords.line[w];
-    const std::uint64_t vn = normals.line.empty() ? 0 : normals.line[w];
+    const std::uint64_t vt = texcoords.empty() ? 0 : texcoords[w];
+    const std::uint64_t vn = normals.empty() ? 0 : normals[w];
     if (vt == 0 && vn == 0) return;
     out_ += '/';
     if (vt != 0) append_index(out_, vt);
