@@ -61,7 +61,7 @@ enum ObjPresent : std::uint8_t {
 ///
 /// errors  corrupt, over_limit, or truncated when the last line stops short; with the offset and
 ///         "line N". An index that is 0 or names nothing is corrupt
-/// cost    O(size), no more than 20 times the file's size in memory
+/// cost    O(size), no more than 30 times the file's size in memory
 Result<Model> read_obj(ByteView file, const ReadFile& read_file, const Limits& limits = {});
 
 struct ObjFiles {
