@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "codecs/filter/restrip.h"
 #include "codecs/stripify/stripify.h"
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
@@ -95,6 +96,9 @@ RC_GTEST_PROP(DisplayFilters, KeepTheTrianglesOfAnyMap, ()) {
     if (filter.name == "dtfs") RC_ASSERT(cost.vertices_sent <= 4 * expected.size());
     if (filter.name == "stss") RC_ASSERT(cost.vertices_sent <= map.size());
   }
+  const Map display = restrip(map, wedge_vertex);
+  RC_ASSERT(triangles_of(display, wedge_vertex) == expected);
+  RC_ASSERT(display_cost(display).vertices_sent <= 3 * expected.size());
 }
 
 // The strips of a mesh, with vertices merged at random as collapses do.
@@ -111,6 +115,7 @@ RC_GTEST_PROP(DisplayFilters, KeepTheTrianglesOfCollapsedStrips, (std::uint32_t 
     RC_LOG() << filter.name;
     RC_ASSERT(triangles_of(filter_strips(map, {}, filter.append), {}) == expected);
   }
+  RC_ASSERT(triangles_of(restrip(map, {}), {}) == expected);
 }
 
 }  // namespace
