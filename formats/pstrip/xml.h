@@ -45,6 +45,12 @@ Bytes write_xml(const ProgressiveStrips& strips);
 Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits = {},
                                    XmlLocations* locations = nullptr);
 
+/// The same without `check`: what the document says, for a validator that judges each value by
+/// itself. Attributes have one element for each vertex and wedge that base and vsplits bring; each
+/// vsplit has the lists it counts. Nothing else is certain, indices least of all.
+Result<ProgressiveStrips> read_xml_unchecked(ByteView document, const Limits& limits,
+                                             XmlLocations* locations);
+
 /// Whether the bytes look like an XML document rather than another format: white space or a byte
 /// order mark, then '<'.
 bool looks_like_xml(ByteView start);

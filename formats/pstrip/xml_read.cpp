@@ -745,8 +745,10 @@ std::uint32_t XmlLocations::line_of(std::string_view path) const {
   return 1;
 }
 
-Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits,
-                                   XmlLocations* locations) {
+namespace {
+
+Result<ProgressiveStrips> read(ByteView document, const Limits& limits, bool checked,
+                               XmlLocations* locations) {
   const Result<XmlExtent> extent = scan_xml(document, limits);
   if (!extent) return tl::unexpected<Error>(extent.error());
   if (memory_for(*extent, document.size()) > limits.memory_bytes)
@@ -764,7 +766,7 @@ Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits,
   Context in(document, limits);
   ProgressiveStrips strips = Reader(in).read(root);
   if (in.error()) return tl::unexpected<Error>(*in.error());
-  if (Result<void> ok = check(strips); !ok) {
+  if (Result<void> ok = checked ? check(strips) : Result<void>{}; !ok) {
     Error error = ok.error();
     const std::uint32_t line = Locator().locate(root).line_of(error.path);
     error.path = "line " + std::to_string(line) + ", " + error.path;
@@ -773,6 +775,18 @@ Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits,
   }
   if (locations != nullptr) *locations = Locator().locate(root);
   return strips;
+}
+
+}  // namespace
+
+Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits,
+                                   XmlLocations* locations) {
+  return read(document, limits, true, locations);
+}
+
+Result<ProgressiveStrips> read_xml_unchecked(ByteView document, const Limits& limits,
+                                             XmlLocations* locations) {
+  return read(document, limits, false, locations);
 }
 
 bool looks_like_xml(ByteView start) {
