@@ -1,0 +1,238 @@
+#include <algorithm>
+
+#include "codecs/vsplit/level.h"
+#include "formats/pstrip/check.h"
+#include "formats/pstrip/digest.h"
+#include "validators/checks.h"
+
+namespace pstrip::checks {
+namespace {
+
+template <class Visit>
+void for_each_mesh(const Document& doc, Visit&& visit) {
+  if (doc.ended_early) return;
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m) visit(m, doc.strips.meshes[m]);
+}
+
+template <class Visit>
+void for_each_table(const Document& doc, Visit&& visit) {
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m)
+    if (!doc.strips.meshes[m].faces.empty()) visit(m, doc.strips.meshes[m]);
+}
+
+void below(std::span<const Index> list, std::uint64_t end, Where where, Findings& out) {
+  for (std::size_t i = 0; i < list.size() && !out.full(); ++i) {
+    where.element = i;
+    if (list[i] >= end) out.add(where, std::to_string(list[i]));
+  }
+}
+
+/// first partitions `size` items into runs of at least `least`.
+void partition(std::span<const Index> first, std::size_t size, Index least, Where where,
+               Findings& out) {
+  if (first.empty()) {
+    if (size > 0) out.add(where, "has no runs");
+    return;
+  }
+  for (std::size_t i = 0; i < first.size() && !out.full(); ++i) {
+    where.element = i;
+    const Index before = i == 0 ? 0 : first[i - 1];
+    const bool starts = i > 0 || first[0] == 0;
+    const bool ends = i + 1 < first.size() || first[i] == size;
+    if (!starts || !ends || first[i] < before || (i > 0 && first[i] - before < least))
+      out.add(where, std::to_string(first[i]));
+  }
+}
+
+void permutation(std::span<const Index> list, std::size_t size, Where where, Findings& out) {
+  if (list.size() != size) {
+    out.add(where, std::to_string(list.size()) + " entries for " + std::to_string(size));
+    return;
+  }
+  std::vector<bool> used(size);
+  for (std::size_t i = 0; i < size && !out.full(); ++i) {
+    where.element = i;
+    if (list[i] >= size)
+      out.add(where, std::to_string(list[i]));
+    else if (used[list[i]])
+      out.add(where, std::to_string(list[i]) + " again");
+    else
+      used[list[i]] = true;
+  }
+}
+
+bool has_order(const ProgressiveMesh& mesh) { return mesh.order != OriginalOrder{}; }
+
+/// The group in which each triangle stands.
+std::vector<Index> groups_of_triangles(const ProgressiveMesh& mesh, const Replay& replay) {
+  std::vector<Index> out;
+  std::size_t first = 0;
+  for (std::size_t g = 0; g < mesh.group_entries.size(); ++g) {
+    for_each_triangle(
+        std::span(replay.map).subspan(first, mesh.group_entries[g]),
+        [&](Index w) { return replay.wedge_vertex[w]; },
+        [&](Index, Index, Index) { out.push_back(static_cast<Index>(g)); });
+    first += mesh.group_entries[g];
+  }
+  return out;
+}
+
+/// The table can be followed: what decoding the mesh stands on.
+bool is_sound(const ProgressiveStrips& strips, Index mesh) {
+  return strips.meshes[mesh].faces.empty() || check_faces(strips, mesh).has_value();
+}
+
+}  // namespace
+
+void full_counts_reached(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (!doc.replays[m].finished) return;
+    const Shown& is = doc.replays[m].levels.back();
+    const auto compare = [&](const char* name, Index declared, Index reached, std::uint64_t count) {
+      if (declared != reached)
+        out.add({.field = Field::counts, .mesh = m, .element = count},
+                name + (" says " + std::to_string(declared)) + ", is " + std::to_string(reached));
+    };
+    compare("triangles", mesh.triangles, is.triangles, 2);
+    compare("strips", mesh.strips, is.strips, 3);
+  });
+}
+
+// ---- Faces ----
+
+void face_bounds(const Document& doc, Findings& out) {
+  for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    partition(mesh.faces.first, mesh.faces.corners.size(), 0,
+              {.field = Field::face_first, .mesh = m}, out);
+  });
+}
+
+void face_corners_exist(const Document& doc, Findings& out) {
+  for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    below(mesh.faces.corners, mesh.wedges, {.field = Field::face_corner, .mesh = m}, out);
+  });
+}
+
+void face_groups_exist(const Document& doc, Findings& out) {
+  for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    below(mesh.faces.group, mesh.groups.size(), {.field = Field::face_group, .mesh = m}, out);
+  });
+}
+
+void replaced_bounds(const Document& doc, Findings& out) {
+  for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    partition(mesh.faces.replaced_first, mesh.faces.replaced.size(), 0,
+              {.field = Field::replaced_first, .mesh = m}, out);
+  });
+}
+
+void replaced_exist(const Document& doc, Findings& out) {
+  for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    below(mesh.faces.replaced, mesh.triangles, {.field = Field::replaced, .mesh = m}, out);
+  });
+}
+
+void replaced_once(const Document& doc, Findings& out) {
+  for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    std::vector<Index> sorted = mesh.faces.replaced;  // may name triangles past the end
+    std::ranges::sort(sorted);
+    const auto twice = std::ranges::adjacent_find(sorted);
+    if (twice == sorted.end()) return;
+    const auto last = std::find(mesh.faces.replaced.rbegin(), mesh.faces.replaced.rend(), *twice);
+    out.add({.field = Field::replaced,
+             .mesh = m,
+             .element = static_cast<std::uint64_t>(mesh.faces.replaced.rend() - last - 1)},
+            std::to_string(*twice));
+  });
+}
+
+void replaced_in_group(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (mesh.faces.empty() || !doc.replays[m].finished || !is_sound(doc.strips, m)) return;
+    const std::vector<Index> group = groups_of_triangles(mesh, doc.replays[m]);
+    for (Index f = 0; f < mesh.faces.count(); ++f)
+      for (Index i = mesh.faces.replaced_first[f]; i < mesh.faces.replaced_first[f + 1]; ++i) {
+        const Index triangle = mesh.faces.replaced[i];
+        if (triangle < group.size() && group[triangle] != mesh.faces.group[f])
+          out.add({.field = Field::replaced, .mesh = m, .element = i},
+                  "triangle of group " + std::to_string(group[triangle]) + ", face of group " +
+                      std::to_string(mesh.faces.group[f]));
+      }
+  });
+}
+
+void faces_counted(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    const std::uint64_t faces =
+        std::uint64_t{mesh.triangles} + mesh.faces.count() - mesh.faces.replaced.size();
+    if (faces != doc.declared[m].faces)
+      out.add({.field = Field::counts, .mesh = m, .element = 6},
+              "says " + std::to_string(doc.declared[m].faces) + ", is " + std::to_string(faces));
+  });
+}
+
+void faces_needed(const Document& doc, Findings& out) {
+  for (const FaultAt& fault : doc.faults.list())
+    if (fault.fault == Fault::faces_empty) out.add(fault.where, "the table is empty");
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    const bool there = doc.xml ? !mesh.faces.empty() : doc.mesh_chunks[m].faces != kNone;
+    if (!there && !mesh.face_attribute_formats.empty())
+      out.add({.field = Field::mesh, .mesh = m}, "the mesh has face attributes");
+  });
+}
+
+// ---- Order, digest ----
+
+void order_vertices(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (has_order(mesh))
+      permutation(mesh.order.vertex, mesh.vertices, {.field = Field::order_vertex, .mesh = m}, out);
+  });
+}
+
+void order_wedges(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (has_order(mesh))
+      permutation(mesh.order.wedge, mesh.single_wedges ? 0 : mesh.wedges,
+                  {.field = Field::order_wedge, .mesh = m}, out);
+  });
+}
+
+void order_faces(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (has_order(mesh))
+      permutation(mesh.order.face, doc.declared[m].faces, {.field = Field::order_face, .mesh = m},
+                  out);
+  });
+}
+
+void rotations(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (!has_order(mesh) || !is_sound(doc.strips, m)) return;
+    if (mesh.order.rotation.size() != doc.declared[m].faces)
+      out.add({.field = Field::order, .mesh = m},
+              std::to_string(mesh.order.rotation.size()) + " rotations");
+    const std::size_t triangles = face_count(mesh) - mesh.faces.count();
+    for (std::size_t f = 0; f < mesh.order.rotation.size() && !out.full(); ++f) {
+      Index corners = 3;
+      if (f >= triangles && f - triangles < mesh.faces.count())
+        corners = mesh.faces.first[f - triangles + 1] - mesh.faces.first[f - triangles];
+      if (mesh.order.rotation[f] >= std::max<Index>(corners, 1))
+        out.add({.field = Field::rotation, .mesh = m, .element = f},
+                std::to_string(mesh.order.rotation[f]) + " of " + std::to_string(corners));
+    }
+  });
+}
+
+void digest_matches(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (mesh.digest.empty() || !doc.replays[m].finished || !is_sound(doc.strips, m)) return;
+    if (mesh.triangles != doc.replays[m].levels.back().triangles) return;  // another rule's
+    Level level(mesh);
+    level.refine_fully();
+    if (!std::ranges::equal(digest(mesh_of(level)), mesh.digest))
+      out.add({.field = Field::digest, .mesh = m});
+  });
+}
+
+}  // namespace pstrip::checks

@@ -1,0 +1,36 @@
+#include "validators/utf8.h"
+
+#include <cstdint>
+
+namespace pstrip {
+namespace {
+
+/// Bytes of the character at the front of `text`, 0 when there is none. [RFC 3629 §4]
+std::size_t character_bytes(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
+  const std::uint8_t lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < size) return 0;
+  // The second byte tells overlong forms, surrogates and values past U+10FFFF.
+  const std::uint8_t low = lead == 0xe0 ? 0xa0 : lead == 0xf0 ? 0x90 : 0x80;
+  const std::uint8_t high = lead == 0xed ? 0x9f : lead == 0xf4 ? 0x8f : 0xbf;
+  if (byte(1) < low || byte(1) > high) return 0;
+  for (std::size_t i = 2; i < size; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  return size;
+}
+
+}  // namespace
+
+std::size_t first_not_utf8(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t size = character_bytes(text.substr(at));
+    if (size == 0) return at;
+    at += size;
+  }
+  return text.size();
+}
+
+}  // namespace pstrip

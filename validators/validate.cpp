@@ -1,0 +1,74 @@
+#include "validators/validate.h"
+
+#include <algorithm>
+
+#include "formats/pstrip/xml.h"
+#include "validators/rules.h"
+
+namespace pstrip {
+namespace {
+
+void ask(Stage stage, const Document& doc, const ValidateOptions& options, Report& report) {
+  for (const Rule& rule : rules()) {
+    if (rule.stage != stage || std::ranges::find(options.ignore, rule.code) != options.ignore.end())
+      continue;
+    Rule asked = rule;
+    if (options.warnings_as_errors && rule.severity == Severity::warning)
+      asked.severity = Severity::error;
+    Findings findings(doc, asked, report);
+    rule.check(doc, findings);
+  }
+}
+
+/// Whether every rule of the stage holds, ignored ones too: later steps stand on them.
+bool holds(Stage stage, const Document& doc) {
+  Report report;
+  ask(stage, doc, {}, report);
+  return report.errors() == 0;
+}
+
+}  // namespace
+
+void Findings::add(const Where& where, std::string_view found) {
+  const Severity severity = rule_.severity;
+  Finding finding{rule_.code, severity, rule_.clause, std::string(rule_.holds), kNoOffset, {}};
+  if (!found.empty()) finding.message.append(" Found: ").append(found).append(".");
+  if (!report_.full()) {  // locating costs, and the report would drop it
+    Location location = doc_.locate(doc_, where);
+    finding.offset = location.offset;
+    finding.path = std::move(location.path);
+  }
+  report_.add(std::move(finding), rule_.verdict);
+}
+
+void replay_all(Document& doc) {
+  doc.replays.clear();
+  for (Index m = 0; m < doc.strips.bases.size(); ++m) {
+    std::vector<Index> vsplits;
+    for (const Index packet : doc.packets_of[m])
+      vsplits.push_back(doc.strips.packets[packet].vsplits);
+    Faults faults;
+    doc.replays.push_back(replay(doc.strips.meshes[m], vsplits, faults));
+    for (FaultAt fault : faults.list()) {
+      fault.where.mesh = m;
+      doc.faults.add(fault.fault, fault.where, std::move(fault.found));
+    }
+  }
+  doc.depth = Depth::replayed;
+}
+
+Report validate(ByteView file, const ValidateOptions& options) {
+  Report report(options.max_findings);
+  Document doc =
+      looks_like_xml(file) ? open_xml(file, options.limits) : open_binary(file, options.limits);
+  ask(Stage::file, doc, options, report);
+  if (doc.depth < Depth::model) return report;
+  ask(Stage::base, doc, options, report);
+  ask(Stage::model, doc, options, report);
+  if (!holds(Stage::base, doc)) return report;
+  replay_all(doc);
+  ask(Stage::replay, doc, options, report);
+  return report;
+}
+
+}  // namespace pstrip
