@@ -111,7 +111,7 @@ TEST(Xml, WritesNumbersThatPeopleCanRead) {
 
 TEST(Xml, RefusesWhatIsNoNumber) {
   for (const char* token :
-       {"", "-", "nan", "inf", "infinity", "Infinity", "1.5x", "0x10", "1e", "--1", "+-1", "1e999",
+       {"", "-", "nan", "inf", "infinity", "Infinity", "1.5x", "0x10", "1e", "--1", "+-1", "1e999", "1e-999",
         "nan:0x7fc0000", "nan:0x3f800000", "nan:0x7fc000001"}) {
     float f = 0;
     EXPECT_FALSE(parse_number(token, f)) << token;
