@@ -81,7 +81,8 @@ struct ProgressiveMesh {
   // Vertex splits, and their lists one after the other.
   std::vector<Vsplit> vsplits;
   Bytes parent_position;            ///< with free placement: the parent's position after each split
-  std::vector<Index> wedge_places;  ///< per new wedge: how many entries it is written to
+  /// Per new wedge, with single wedges too: how many entries it is written to.
+  std::vector<Index> wedge_places;
   std::vector<Index> places;        ///< map offsets, ascending within a wedge
   std::vector<Index> carried;       ///< wedges taken over
 
