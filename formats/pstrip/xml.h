@@ -32,7 +32,7 @@ struct XmlLocations {
 /// strips, bit for bit.
 ///
 /// Precondition: `check(strips)` holds (formats/pstrip/check.h).
-/// cost  O(size); about 120 bytes a vertex of a plain mesh
+/// cost  O(size); about 80 bytes a vertex of a mesh without wedge attributes
 Bytes write_xml(const ProgressiveStrips& strips);
 
 /// Reads a document; what it returns satisfies `check` (formats/pstrip/check.h).
@@ -40,7 +40,7 @@ Bytes write_xml(const ProgressiveStrips& strips);
 /// locations  when not null, filled with the line of each part
 /// errors     truncated, corrupt, over_limit, unsupported; the path is the line, then the element
 ///            or the part of the model; the offset is that of the byte or of the line's start
-/// cost       O(document); peak memory about 7 times the document, bounded by
+/// cost       O(document); peak memory about 5 times the document, bounded by
 ///            Limits::memory_bytes before anything is built
 Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits = {},
                                    XmlLocations* locations = nullptr);

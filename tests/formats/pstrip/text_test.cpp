@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <random>
 
+#include "formats/pstrip/check.h"
 #include "formats/pstrip/face_finder.h"
+#include "tests/support/paths.h"
 #include "tests/support/progressive.h"
 
 namespace pstrip {
@@ -351,6 +355,60 @@ TEST(Text, RefusesRecordsThatChangeForeignEntries) {
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::corrupt);
   EXPECT_EQ(file.error().path, "/meshes/0/vsplits/0");
+}
+
+TEST(Text, WritesWhatItCanReadOrNothing) {
+  std::mt19937 random(23);
+  int written_files = 0, refused = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    SCOPED_TRACE(i);
+    ProgressiveStrips strips = test::random_progressive(
+        i % 50, {.encoding = static_cast<MapEncoding>(i & 1), .single_wedges = (i & 2) != 0});
+    ProgressiveMesh& mesh = strips.meshes[0];
+    const auto change = [&](std::vector<Index>& list, Index below) {
+      if (!list.empty() && below > 0)
+        list[random() % list.size()] = static_cast<Index>(random() % below);
+    };
+    switch (random() % 5) {
+      case 0:
+        mesh.vsplits[random() % mesh.vsplits.size()].parent = static_cast<Index>(random() % 8);
+        break;
+      case 1:
+        change(mesh.places, static_cast<Index>(mesh.base_map.size()));
+        break;
+      case 2:
+        change(mesh.carried, mesh.wedges);
+        break;
+      case 3:
+        change(mesh.base_wedge_vertex, mesh.base_vertices);
+        break;
+      default:
+        change(mesh.base_map, mesh.base_wedges);
+        break;
+    }
+    if (!check(strips)) continue;
+    const auto file = write_text(strips);
+    if (!file) {
+      EXPECT_EQ(file.error().code, ErrorCode::corrupt);
+      ++refused;
+      continue;
+    }
+    ++written_files;
+    const auto read = read_text(file->bytes);
+    EXPECT_TRUE(read) << read.error().message << " " << read.error().path;
+  }
+  EXPECT_GT(written_files, 0);
+  EXPECT_GT(refused, 0);
+}
+
+TEST(Text, RefusesARealFileOfHoppesLibrary) {
+  const auto models = test::models_dir();
+  if (!models) GTEST_SKIP() << "no models folder";
+  std::ifstream in(*models / "classic" / "spheretext.pm", std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const auto read = read_text(as_bytes(bytes));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().code, ErrorCode::unsupported);
 }
 
 /// One entry that all others of a fan repeat, and vsplits that rewrite it again and again: each of

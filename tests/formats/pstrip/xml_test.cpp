@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -111,8 +112,8 @@ TEST(Xml, WritesNumbersThatPeopleCanRead) {
 
 TEST(Xml, RefusesWhatIsNoNumber) {
   for (const char* token :
-       {"", "-", "nan", "inf", "infinity", "Infinity", "1.5x", "0x10", "1e", "--1", "+-1", "1e999", "1e-999",
-        "nan:0x7fc0000", "nan:0x3f800000", "nan:0x7fc000001"}) {
+       {"", "-", "nan", "inf", "infinity", "Infinity", "1.5x", "0x10", "1e", "--1", "+-1", "1e999",
+        "1e-999", "nan:0x7fc0000", "nan:0x3f800000", "nan:0x7fc000001"}) {
     float f = 0;
     EXPECT_FALSE(parse_number(token, f)) << token;
   }
@@ -350,6 +351,17 @@ TEST(Xml, IsRecognised) {
   EXPECT_TRUE(looks_like_xml(as_bytes("\xef\xbb\xbf \n<pstrips")));
   EXPECT_FALSE(looks_like_xml(as_bytes("ply\n")));
   EXPECT_FALSE(looks_like_xml({}));
+}
+
+TEST(Xml, WritesTheExampleOfTheSpec) {
+  std::ifstream page(test::data_dir().parent_path().parent_path() / "spec" / "xml.md");
+  const std::string text(std::istreambuf_iterator<char>(page), {});
+  constexpr std::string_view kStart = "```xml\n";
+  const std::size_t start = text.find(kStart) + kStart.size();
+  const std::string example = text.substr(start, text.find("```", start) - start);
+  const auto read = read_text(example);
+  ASSERT_TRUE(read) << read.error().message << " " << read.error().path;
+  EXPECT_EQ(text_of(*read), example);
 }
 
 /// Exit code of xmllint against our schema, or nothing when it is not installed.
