@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "formats/ply/ply.h"
 #include "formats/ply/ply_body.h"
@@ -100,6 +102,24 @@ bool survives(const Attribute& doubles, std::size_t component, ComponentType typ
   });
 }
 
+/// Attributes that are to be written, found by name.
+struct NamedAttributes {
+  static constexpr std::size_t kNotFound = ~std::size_t{0};
+  std::vector<const Attribute*> list;
+  std::map<std::string_view, std::size_t> by_name;
+
+  void add(const Attribute& attribute) {
+    by_name.emplace(attribute.semantic, list.size());
+    list.push_back(&attribute);
+  }
+  /// The one of the same format.
+  std::size_t find(const Attribute& wanted) const {
+    const auto found = by_name.find(wanted.semantic);
+    const bool same = found != by_name.end() && list[found->second]->same_format(wanted);
+    return same ? found->second : kNotFound;
+  }
+};
+
 class ModelWriter {
  public:
   ModelWriter(const Model& model, const PlyWriteOptions& options)
@@ -117,10 +137,8 @@ class ModelWriter {
     }
     header().encoding = encoding_;
     choose_elements();
-    if (mesh_ != nullptr) {
-      describe_vertices();
-      describe_faces();
-    }
+    if (mesh_ != nullptr && !(describe_vertices() && describe_faces()))
+      return fail(ErrorCode::bad_argument, "attribute names clash");
     return write();
   }
 
@@ -144,18 +162,19 @@ class ModelWriter {
   void choose_elements() {
     bound_ = mesh_ != nullptr && !kept_.columns.empty() && digest_of(*mesh_) == kept_.digest;
     auto& elements = header().elements;
-    for (std::size_t e = elements.size(); e-- > 0;) {
-      const bool ours =
-          elements[e].name == "vertex" || (mesh_ != nullptr && elements[e].name == "face");
-      if (ours ? mesh_ == nullptr : !is_whole(elements[e])) erase_element(e);
+    std::vector<bool> gone;
+    for (const Element& element : elements) {
+      const bool ours = element.name == "vertex" || (mesh_ != nullptr && element.name == "face");
+      gone.push_back(ours ? mesh_ == nullptr : !is_whole(element));
     }
+    erase_elements(gone);
     if (mesh_ == nullptr) return;
     if (header().find("vertex") == nullptr) {
       Element element;
       element.name = "vertex";
       // Lines that no keyword introduces must stay before the first element.
-      if (!elements.empty()) element.remarks = std::move(elements.front().remarks);
-      if (!elements.empty()) elements.front().remarks.clear();
+      element.remarks =
+          std::exchange(elements.empty() ? header().last_remarks : elements.front().remarks, {});
       elements.insert(elements.begin(), std::move(element));
     }
     const bool has_faces = mesh_->face_count() != 0;
@@ -171,6 +190,7 @@ class ModelWriter {
 
   /// Whether all values of an element that is not ours are there and still mean something.
   bool is_whole(const Element& element) const {
+    if (element.name == "tristrips") return false;  // a reader would add them to the faces
     if (element.name == "edge" && mesh_ != nullptr && element.count != 0 && !bound_) return false;
     return std::ranges::all_of(element.properties, [&](const Property& property) {
       return property.kept != Property::kNotKept &&
@@ -178,26 +198,46 @@ class ModelWriter {
     });
   }
 
-  void erase_element(std::size_t e) {
-    auto& elements = header().elements;
-    while (!elements[e].properties.empty()) erase_property(e, 0);
-    auto& later = e + 1 < elements.size() ? elements[e + 1].remarks : header().last_remarks;
-    later.insert(later.begin(), elements[e].remarks.begin(), elements[e].remarks.end());
-    elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(e));
+  // What is erased leaves its remarks to the next header line.
+
+  void erase_elements(const std::vector<bool>& gone) {
+    std::vector<Element> left;
+    std::vector<std::string> remarks;
+    for (std::size_t e = 0; e < gone.size(); ++e) {
+      Element& element = header().elements[e];
+      append(remarks, element.remarks);
+      if (gone[e]) {
+        for (Property& property : element.properties) append(remarks, property.remarks);
+        continue;
+      }
+      element.remarks = std::exchange(remarks, {});
+      left.push_back(std::move(element));
+    }
+    append(remarks, header().last_remarks);
+    header().last_remarks = std::move(remarks);
+    header().elements = std::move(left);
   }
 
-  /// Its remarks go to the header line that follows.
-  void erase_property(std::size_t e, std::size_t p) {
-    auto& elements = header().elements;
-    auto& properties = elements[e].properties;
-    auto& later = p + 1 < properties.size() ? properties[p + 1].remarks
-                  : e + 1 < elements.size() ? elements[e + 1].remarks
-                                            : header().last_remarks;
-    later.insert(later.begin(), properties[p].remarks.begin(), properties[p].remarks.end());
-    properties.erase(properties.begin() + static_cast<std::ptrdiff_t>(p));
+  void erase_properties(Element& element, const std::vector<bool>& gone) {
+    std::vector<Property> left;
+    std::vector<std::string> remarks;
+    for (std::size_t p = 0; p < gone.size(); ++p) {
+      Property& property = element.properties[p];
+      append(remarks, property.remarks);
+      if (gone[p]) continue;
+      property.remarks = std::exchange(remarks, {});
+      left.push_back(std::move(property));
+    }
+    element.properties = std::move(left);
+    const bool last = &element == &header().elements.back();
+    auto& later = last ? header().last_remarks : (&element + 1)->remarks;
+    append(remarks, later);
+    later = std::move(remarks);
   }
-  void erase_property(Element& element, std::size_t p) {
-    erase_property(static_cast<std::size_t>(&element - header().elements.data()), p);
+
+  static void append(std::vector<std::string>& to, std::vector<std::string>& more) {
+    to.insert(to.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
+    more.clear();
   }
 
   void name_textures() {
@@ -261,12 +301,14 @@ class ModelWriter {
     return all_agree ? Shape::vertices : Shape::wedges;
   }
 
-  void describe_vertices() {
+  bool describe_vertices() {
     shape_ = choose_shape();
     const auto list = texcoord_list();
+    const bool taken =
+        std::ranges::count(mesh_->wedge_attributes, "TEXCOORD_0", &Attribute::semantic) != 0;
     if (list && shape_ != Shape::vertices_texcoords &&
-        !keeps(face().properties[*list], mesh_->face_count()))
-      erase_property(face(), *list);
+        (taken || !keeps(face().properties[*list], mesh_->face_count())))
+      erase_list(*list);
     if (shape_ == Shape::vertices_texcoords) set_texcoord_list();
     // A vertex's texture coordinates count from 1 when the faces have some, kept ones too.
     faces_have_texcoords_ = texcoord_list().has_value();
@@ -278,20 +320,20 @@ class ModelWriter {
     set_wedge_property();
     for (const Attribute& attribute : mesh_->wedge_attributes)
       if (shape_ != Shape::vertices_texcoords || !is_texcoord(attribute))
-        wedge_attributes_.push_back(&attribute);
-    set_attributes("vertex", wedge_attributes_);
+        wedge_attributes_.add(attribute);
+    if (!set_attributes("vertex", wedge_attributes_)) return false;
     gather_rows();
+    return true;
   }
 
-  void describe_faces() {
-    if (!has_face_element_) return;
+  bool describe_faces() {
+    if (!has_face_element_) return true;
     face().count = mesh_->face_count();
     drop_lost_lists(face(), face().count, face_layout(face()));
     set_corner_list();
-    for (const Attribute& attribute : mesh_->face_attributes)
-      face_attributes_.push_back(&attribute);
-    if (texnumber_) face_attributes_.push_back(&*texnumber_);
-    set_attributes("face", face_attributes_);
+    for (const Attribute& attribute : mesh_->face_attributes) face_attributes_.add(attribute);
+    if (texnumber_) face_attributes_.add(*texnumber_);
+    if (!set_attributes("face", face_attributes_)) return false;
     row_corners_ = mesh_->corners;
     if (shape_ != Shape::wedges)
       for (Index& corner : row_corners_) corner = mesh_->vertex_of(corner);
@@ -299,6 +341,13 @@ class ModelWriter {
       const auto texcoord = std::ranges::find_if(mesh_->wedge_attributes, is_texcoord);
       corner_texcoords_ = gathered(*texcoord, mesh_->corners);
     }
+    return true;
+  }
+
+  void erase_list(std::size_t p) {
+    std::vector<bool> gone(face().properties.size());
+    gone[p] = true;
+    erase_properties(face(), gone);
   }
 
   bool keeps(const Property& property, std::uint64_t rows) const {
@@ -307,9 +356,10 @@ class ModelWriter {
   }
 
   void drop_lost_lists(Element& element, std::uint64_t rows, const Layout& layout) {
-    for (std::size_t p = element.properties.size(); p-- > 0;)
-      if (layout.places[p].role == Role::kept && !keeps(element.properties[p], rows))
-        erase_property(element, p);
+    std::vector<bool> gone;
+    for (std::size_t p = 0; p < element.properties.size(); ++p)
+      gone.push_back(layout.places[p].role == Role::kept && !keeps(element.properties[p], rows));
+    erase_properties(element, gone);
   }
 
   std::uint64_t largest_face() const {
@@ -403,42 +453,37 @@ class ModelWriter {
   }
 
   /// Makes an element's scalars describe these attributes, the kept words first. What a reader
-  /// will make of the names is checked with the reader's own function.
-  void set_attributes(std::string_view name, std::span<const Attribute* const> attributes) {
+  /// will make of the names is checked with the reader's own function; false when it would be
+  /// something else whatever is tried, as for an attribute named POSITION.
+  bool set_attributes(std::string_view name, const NamedAttributes& attributes) {
     enum { kept_and_usual, kept_and_indexed, indexed };
     const Header before = header();
     for (const int attempt : {kept_and_usual, kept_and_indexed, indexed}) {
       if (attempt != kept_and_usual) header() = before;
       Element& element = *header().find(name);
       const Layout layout = layout_of(name);
-      std::vector<bool> named(attributes.size());
-      for (std::size_t p = element.properties.size(); p-- > 0;) {
+      std::vector<bool> named(attributes.list.size()), gone(element.properties.size());
+      for (std::size_t p = 0; p < gone.size(); ++p) {
         if (layout.places[p].role != Role::attribute) continue;
-        const auto found = find_format(attributes, layout.attributes[layout.places[p].attribute]);
-        if (found == attributes.size() || attempt == indexed)
-          erase_property(element, p);
-        else
-          named[found] = true;
+        const std::size_t a = attributes.find(layout.attributes[layout.places[p].attribute]);
+        gone[p] = a == NamedAttributes::kNotFound || attempt == indexed;
+        if (!gone[p]) named[a] = true;
       }
-      for (std::size_t a = 0; a < attributes.size(); ++a) {
+      erase_properties(element, gone);
+      for (std::size_t a = 0; a < named.size(); ++a) {
         if (named[a]) continue;
-        for (Property& property : properties_for(*attributes[a], attempt == kept_and_usual))
+        for (Property& property : properties_for(*attributes.list[a], attempt == kept_and_usual))
           element.properties.push_back(std::move(property));
       }
       const Layout result = layout_of(name);
-      const bool all = result.attributes.size() == attributes.size() &&
-                       std::ranges::all_of(result.attributes, [&](const Attribute& attribute) {
-                         return find_format(attributes, attribute) != attributes.size();
-                       });
-      if (all) return;
+      const auto is_ours = [&](const Attribute& a) {
+        return attributes.find(a) != NamedAttributes::kNotFound;
+      };
+      if (result.attributes.size() == attributes.list.size() &&
+          std::ranges::all_of(result.attributes, is_ours))
+        return true;
     }
-  }
-
-  static std::size_t find_format(std::span<const Attribute* const> attributes,
-                                 const Attribute& wanted) {
-    const auto found = std::ranges::find_if(
-        attributes, [&](const Attribute* a) { return a->same_format(wanted); });
-    return static_cast<std::size_t>(found - attributes.begin());
+    return false;
   }
 
   /// Brings positions and attributes into the order of the rows where it is not theirs.
@@ -449,7 +494,7 @@ class ModelWriter {
       return;
     }
     const std::vector<Index> first = first_wedges(*mesh_);
-    for (const Attribute* attribute : wedge_attributes_)
+    for (const Attribute* attribute : wedge_attributes_.list)
       row_attributes_.push_back(gathered(*attribute, first));
   }
 
@@ -498,9 +543,10 @@ class ModelWriter {
         break;
     }
     const auto& attributes = is_vertex ? wedge_attributes_ : face_attributes_;
-    const std::size_t a = find_format(attributes, layout.attributes[place.attribute]);
+    const std::size_t a = attributes.find(layout.attributes[place.attribute]);
     const bool from_rows = is_vertex && !row_attributes_.empty();
-    return scalar_source(*attributes[a], from_rows ? row_attributes_[a] : attributes[a]->data,
+    return scalar_source(*attributes.list[a],
+                         from_rows ? row_attributes_[a] : attributes.list[a]->data,
                          place.component);
   }
 
@@ -536,7 +582,7 @@ class ModelWriter {
   Attribute scaled_position_;
   std::optional<Attribute> texnumber_;
   std::vector<Index> image_number_;  // of each image among those written
-  std::vector<const Attribute*> wedge_attributes_, face_attributes_;
+  NamedAttributes wedge_attributes_, face_attributes_;
   Bytes row_position_, corner_texcoords_;
   std::vector<Bytes> row_attributes_;
   std::vector<Index> row_corners_, wedge_rows_;

@@ -197,6 +197,32 @@ TEST(WritePly, AddsAttributesBesideKeptWords) {
   expect_recovered(model);
 }
 
+TEST(WritePly, ATakenNameEndsAKeptList) {
+  Model model = read_text(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+      "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 1 5\n");
+  Attribute texcoord{"TEXCOORD_0", ComponentType::u8, 2, true, Bytes(6)};
+  model.meshes.at(0).wedge_attributes.push_back(texcoord);
+  EXPECT_EQ(text_of(model).find("texcoord"), std::string::npos);
+  expect_recovered(model);
+}
+
+TEST(WritePly, ManyPropertiesTakeNoLonger) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float "
+      "z\n";
+  for (int i = 0; i < 10000; ++i)
+    text += "comment " + std::to_string(i) + "\nproperty int p" + std::to_string(i % 5000) + '\n';
+  Model model = read_text(text + "end_header\n");
+  ASSERT_EQ(model.meshes.at(0).wedge_attributes.size(), 10000u);
+  EXPECT_EQ(test::round_trip_failure(model), "");
+  auto& attributes = model.meshes[0].wedge_attributes;
+  attributes.erase(attributes.begin(), attributes.begin() + 8000);
+  EXPECT_EQ(test::round_trip_failure(read_text(text_of(model))), "");
+}
+
 TEST(WritePly, WidensIndicesAndCountsThatNoLongerFit) {
   Model model = read_text(kLabelled);
   Mesh mesh = test::triangle_mesh(std::vector<float>(3 * 400), {});
@@ -267,6 +293,13 @@ TEST(WritePly, RefusesWhatPlyCannotSay) {
        ErrorCode::unsupported},
       {"lines", [](Model& m) { m.meshes[0].groups[0].kind = FaceKind::lines; },
        ErrorCode::unsupported},
+      {"position_twice", [](Model& m) { m.meshes[0].wedge_attributes = {m.meshes[0].position}; },
+       ErrorCode::bad_argument},
+      {"attribute_twice",
+       [](Model& m) {
+         m.meshes[0].face_attributes = {2, {"a", ComponentType::u8, 1, false, Bytes(2)}};
+       },
+       ErrorCode::bad_argument},
       {"header_cut",
        [](Model& m) {
          m.scene.foreign = {{"ply/header", Bytes(3)}};
