@@ -16,7 +16,7 @@ bool is_finite(std::span<const double> p) {
 
 Complex::Complex(std::span<const double> positions, std::span<const Index> wedge_vertex,
                  std::span<const Index> triangles)
-    : vertices(positions.size() / 3) {
+    : vertices(positions.size() / 3), slot_(vertices.size()) {
   assert(triangles.size() / 3 < kMaxCount / 4);
   // Halved, so that the extent of the largest doubles is still one.
   double low[3], high[3];
@@ -77,8 +77,9 @@ void Complex::gather(Index vertex, Star& star) {
   const auto corners = ring(vertex);
   const Index epoch = new_epoch();
   star.vertex = vertex;
-  star.spokes.resize(corners.size());
-  star.edges.clear();
+  if (star.spoke_buffer.size() < corners.size()) star.spoke_buffer.resize(corners.size());
+  star.spokes = {star.spoke_buffer.data(), corners.size()};
+  star.edge_buffer.clear();
   for (Index i = 0; i < corners.size(); ++i) {
     Spoke& spoke = star.spokes[i];
     spoke.corner = corners[i];
@@ -89,16 +90,17 @@ void Complex::gather(Index vertex, Star& star) {
       VertexRecord& record = vertices[other];
       if (record.mark != epoch) {
         record.mark = epoch;
-        record.slot = static_cast<Index>(star.edges.size());
-        star.edges.push_back({.vertex = other, .triangles = 0, .outgoing = 0});
+        slot_[other] = static_cast<Index>(star.edge_buffer.size());
+        star.edge_buffer.push_back({.vertex = other, .triangles = 0, .outgoing = 0});
       }
-      StarEdge& edge = star.edges[record.slot];
+      StarEdge& edge = star.edge_buffer[slot_[other]];
       ++edge.triangles;
       edge.outgoing += side == 0 ? 1 : 0;
       spoke.more[side] = edge.first;
       edge.first = 2 * i + side;
     }
   }
+  star.edges = star.edge_buffer;
   star.open_edges = static_cast<Index>(
       std::ranges::count_if(star.edges, [](const StarEdge& edge) { return edge.triangles != 2; }));
 }

@@ -30,25 +30,28 @@ struct StarEdge {
 /// The live triangles and edges around one vertex; scratch memory.
 struct Star {
   Index vertex = kNone;
-  std::vector<Spoke> spokes;
-  std::vector<StarEdge> edges;
+  std::span<Spoke> spokes;
+  std::span<StarEdge> edges;
   Index open_edges = 0;  ///< with one triangle or more than two
+  std::vector<Spoke> spoke_buffer;
+  std::vector<StarEdge> edge_buffer;
 };
 
 /// Everything about a vertex that the inner loops need, on one cache line.
 struct alignas(64) VertexRecord {
   double x = 0, y = 0, z = 0;  ///< scaled to the unit box
   float error = 0;             ///< constant term of its quadric; infinite: locked
-  float weight = 0;            ///< of its quadric's planes
   float key = 0;               ///< in the heap
-  float floor = 0;             ///< the key it would have if no guard had refused
+  float others = 0;            ///< bound of its edges but the one to `best`, guards aside
+  Index best = kNone;          ///< end of its cheapest edge, if known
   Index ring = 0;              ///< first of its corners in the pool
   Index ring_size = 0;         ///< dead triangles included
   Index ring_capacity = 0;
-  Index mark = 0, slot = 0;   ///< scratch of whoever drew the last epoch
+  Index mark = 0;             ///< scratch of whoever drew the last epoch
   std::uint16_t touches = 0;  ///< changes around it since it was last looked at
   bool regular = false;       ///< each edge has two triangles of opposite direction
 };
+static_assert(sizeof(VertexRecord) == 64);
 
 /// Triangles over flat arrays with the corners of each vertex listed in one pool.
 /// A corner is 4 · triangle + its place 0, 1, 2; place 3 tells whether the triangle is dead.
@@ -92,6 +95,7 @@ class Complex {
 
  private:
   std::vector<Index> pool_;
+  std::vector<Index> slot_;  // by vertex: its edge while a star is gathered
   Index epoch_ = 0;
 };
 
@@ -112,27 +116,27 @@ inline void Complex::gather_regular(Index vertex, Star& star) {
   const VertexRecord& record = vertices[vertex];
   star.vertex = vertex;
   star.open_edges = 0;
-  star.spokes.resize(record.ring_size);
-  star.edges.resize(record.ring_size);
+  if (star.spoke_buffer.size() < record.ring_size) star.spoke_buffer.resize(record.ring_size);
+  if (star.edge_buffer.size() < record.ring_size) star.edge_buffer.resize(record.ring_size);
   Index live = 0;
   Index* const first = pool_.data() + record.ring;
   for (Index i = 0; i < record.ring_size; ++i) {
     const Index corner = first[i];
     if (is_dead(corner)) continue;
     first[live] = corner;
-    Spoke& spoke = star.spokes[live];
+    Spoke& spoke = star.spoke_buffer[live];
     spoke.next = corner_vertex[next(corner)];
     spoke.previous = corner_vertex[previous(corner)];
     spoke.corner = corner;
-    StarEdge& edge = star.edges[live];
+    StarEdge& edge = star.edge_buffer[live];
     edge.vertex = spoke.next;
     edge.triangles = 2;
     edge.refused = 0;
     ++live;
   }
   vertices[vertex].ring_size = live;
-  star.spokes.resize(live);
-  star.edges.resize(live);
+  star.spokes = {star.spoke_buffer.data(), live};
+  star.edges = {star.edge_buffer.data(), live};
 }
 
 }  // namespace pstrip

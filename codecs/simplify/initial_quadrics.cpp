@@ -12,134 +12,116 @@ namespace {
 constexpr float kBorderWeight = 2;
 constexpr float kSeamWeight = 1;
 
-class Builder {
- public:
-  Builder(Complex& complex, const SimplifyInput& input, WedgeTable* wedges)
-      : complex_(complex),
-        input_(input),
-        wedges_(wedges),
-        quadrics_(complex.vertex_count()),
-        normals_(complex.triangle_count()) {}
-
-  std::vector<Quadric> build() {
-    for (Index t = 0; t < complex_.triangle_count(); ++t) add_face(t);
-    Star star;
-    for (Index v = 0; v < complex_.vertex_count(); ++v) add_edges(v, star);
-    return std::move(quadrics_);
-  }
-
- private:
-  Index vertex(Index corner) const { return complex_.corner_vertex[corner]; }
-  bool is_locked(Index v) const { return std::isinf(complex_.vertices[v].error); }
-
-  void add_plane(Index v, Vec3f normal, float weight) {
-    quadrics_[v].add_plane(normal, weight);
-    complex_.vertices[v].weight += weight;
-  }
-
-  void add_face(Index t) {
-    const Index c = 4 * t;
-    const Index v[3] = {vertex(c), vertex(c + 1), vertex(c + 2)};
-    if (is_locked(v[0]) || is_locked(v[1]) || is_locked(v[2])) return;
-    const Vec3f e1 = complex_.offset(v[0], v[1]), e2 = complex_.offset(v[0], v[2]);
-    const Vec3f n = cross(e1, e2);
-    const float length = std::sqrt(dot(n, n));
-    if (!(length > 0)) return;
-    normals_[t] = n * (1 / length);
-    const float area = length / 2;
-    for (const Index corner_v : v) add_plane(corner_v, normals_[t], area);
-    if (wedges_) add_attributes(c, v, e1, e2, n, area);
-  }
-
-  // The gradient of each attribute over the triangle, as a plane in (x, a).
-  void add_attributes(Index c, const Index (&v)[3], Vec3f e1, Vec3f e2, Vec3f n, float area) {
-    const Index w[3] = {wedges_->corner_wedge[c], wedges_->corner_wedge[c + 1],
-                        wedges_->corner_wedge[c + 2]};
-    for (const Index wedge : w) wedges_->add_weight(wedge, area);
-    // Along a needle's short side the gradient has no bounds and says nothing.
-    const float longest = std::max(dot(e1, e1), dot(e2, e2));
-    if (4 * area * area < 1e-6f * longest * longest) return;
-    const Vec3f u1 = cross(e2, n) * (1 / (4 * area * area));
-    const Vec3f u2 = cross(n, e1) * (1 / (4 * area * area));
-    for (std::uint32_t k = 0; k < wedges_->attribute_count(); ++k) {
-      const float a0 = wedges_->attribute(w[0], k);
-      const float d1 = wedges_->attribute(w[1], k) - a0, d2 = wedges_->attribute(w[2], k) - a0;
-      const Vec3f gradient = {u1.x * d1 + u2.x * d2, u1.y * d1 + u2.y * d2, u1.z * d1 + u2.z * d2};
-      for (int i = 0; i < 3; ++i) {
-        quadrics_[v[i]].add_plane(gradient, area);
-        wedges_->add_gradient(w[i], k, gradient * area);
-      }
-    }
-  }
-
-  void add_edges(Index v, Star& star) {
-    complex_.gather(v, star);
-    bool regular = star.open_edges == 0 && !star.edges.empty();
-    for (const StarEdge& edge : star.edges) {
-      regular &= edge.outgoing == 1;
-      if (edge.vertex > v && !is_locked(v) && !is_locked(edge.vertex)) add_edge(star, edge);
-    }
-    complex_.vertices[v].regular = regular;
-  }
-
-  void add_edge(const Star& star, const StarEdge& edge) {
-    float weight = kBorderWeight;
-    if (edge.triangles == 2) {
-      const Index second = edge.first, first = star.spokes[second / 2].more[second % 2];
-      const Spoke &a = star.spokes[first / 2], &b = star.spokes[second / 2];
-      weight = fold_weight(a.corner / 4, b.corner / 4, first % 2 == second % 2);
-      if (!input_.group.empty() && input_.group[a.corner / 4] != input_.group[b.corner / 4])
-        weight = std::max(weight, kSeamWeight);
-      if (wedges_) weight = std::max(weight, seam_weight(a, first % 2, b, second % 2));
-      if (weight == 0) return;
-    }
-    const Vec3f along = complex_.offset(star.vertex, edge.vertex);
-    for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
-      const Vec3f n = cross(along, normals_[star.spokes[i / 2].corner / 4]);
-      const float length = std::sqrt(dot(n, n));
-      if (!(length > 0)) continue;
-      const float w = weight * dot(along, along) / static_cast<float>(edge.triangles);
-      add_plane(star.vertex, n * (1 / length), w);
-      add_plane(edge.vertex, n * (1 / length), w);
-    }
-  }
-
-  // Faces that lie on each other, back to back, do not hold their common edge; beyond a right angle
-  // it needs holding more and more.
-  float fold_weight(Index a, Index b, bool same_direction) const {
-    const float cosine = dot(normals_[a], normals_[b]) * (same_direction ? -1.f : 1.f);
-    return kBorderWeight * std::max(0.f, -cosine);
-  }
-
-  // An edge is a seam where its faces use different wedges; as much as their attributes differ.
-  float seam_weight(const Spoke& a, Index side_a, const Spoke& b, Index side_b) const {
-    const auto far = [](const Spoke& s, Index side) {
-      return side == 0 ? Complex::next(s.corner) : Complex::previous(s.corner);
-    };
-    const std::vector<Index>& wedge = wedges_->corner_wedge;
-    float weight = 0;
-    for (const auto& [x, y] : {std::pair{wedge[a.corner], wedge[b.corner]},
-                               std::pair{wedge[far(a, side_a)], wedge[far(b, side_b)]}}) {
-      if (x == y) continue;
-      if (wedges_->attribute_count() == 0) return kSeamWeight;
-      // From a tenth of the whole range on a jump is as visible as it can be.
-      weight = std::max(weight, std::min(1.f, 10 * wedges_->largest_difference(x, y)));
-    }
-    return kSeamWeight * weight;
-  }
-
-  Complex& complex_;
-  const SimplifyInput& input_;
-  WedgeTable* wedges_;
-  std::vector<Quadric> quadrics_;
-  std::vector<Vec3f> normals_;
-};
-
 }  // namespace
 
-std::vector<Quadric> initial_quadrics(Complex& complex, const SimplifyInput& input,
-                                      WedgeTable* wedges) {
-  return Builder(complex, input, wedges).build();
+QuadricBuilder::QuadricBuilder(const Complex& complex, const SimplifyInput& input,
+                               WedgeTable* wedges, std::vector<Quadric>& quadrics)
+    : complex_(complex),
+      input_(input),
+      wedges_(wedges),
+      quadrics_(quadrics),
+      normals_(complex.triangle_count()) {
+  quadrics_.assign(complex.vertex_count(), {});
+  for (Index t = 0; t < complex.triangle_count(); ++t) add_face(t);
+}
+
+bool QuadricBuilder::is_locked(Index vertex) const {
+  return std::isinf(complex_.vertices[vertex].error);
+}
+
+void QuadricBuilder::add_face(Index t) {
+  const Index c = 4 * t;
+  const Index v[3] = {complex_.corner_vertex[c], complex_.corner_vertex[c + 1],
+                      complex_.corner_vertex[c + 2]};
+  if (is_locked(v[0]) || is_locked(v[1]) || is_locked(v[2])) return;
+  const Vec3f e1 = complex_.offset(v[0], v[1]), e2 = complex_.offset(v[0], v[2]);
+  const Vec3f n = cross(e1, e2);
+  const float length = std::sqrt(dot(n, n));
+  if (!(length > 0)) return;
+  normals_[t] = n * (1 / length);
+  const float area = length / 2;
+  for (const Index corner_v : v) quadrics_[corner_v].add_plane(normals_[t], area);
+  if (wedges_) add_attributes(c, v, e1, e2, n, area);
+}
+
+// The gradient of each attribute over the triangle, as a plane in (x, a).
+void QuadricBuilder::add_attributes(Index c, const Index (&v)[3], Vec3f e1, Vec3f e2, Vec3f n,
+                                    float area) {
+  const Index w[3] = {wedges_->corner_wedge[c], wedges_->corner_wedge[c + 1],
+                      wedges_->corner_wedge[c + 2]};
+  for (const Index wedge : w) wedges_->add_weight(wedge, area);
+  // Along a needle's short side the gradient has no bounds and says nothing.
+  const float longest = std::max(dot(e1, e1), dot(e2, e2));
+  if (4 * area * area < 1e-6f * longest * longest) return;
+  const Vec3f u1 = cross(e2, n) * (1 / (4 * area * area));
+  const Vec3f u2 = cross(n, e1) * (1 / (4 * area * area));
+  for (std::uint32_t k = 0; k < wedges_->attribute_count(); ++k) {
+    const float a0 = wedges_->attribute(w[0], k);
+    const float d1 = wedges_->attribute(w[1], k) - a0, d2 = wedges_->attribute(w[2], k) - a0;
+    const Vec3f gradient = {u1.x * d1 + u2.x * d2, u1.y * d1 + u2.y * d2, u1.z * d1 + u2.z * d2};
+    for (int i = 0; i < 3; ++i) {
+      quadrics_[v[i]].add_plane(gradient, area);
+      quadrics_[v[i]].weight -= area;  // counted once, with the face
+      wedges_->add_gradient(w[i], k, gradient * area);
+    }
+  }
+}
+
+void QuadricBuilder::add_edges(const Star& star) {
+  if (is_locked(star.vertex)) return;
+  for (const StarEdge& edge : star.edges)
+    if (!is_locked(edge.vertex)) add_edge(star, edge);
+}
+
+void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge) {
+  float weight = kBorderWeight;
+  if (edge.triangles == 2) {
+    const Index second = edge.first, first = star.spokes[second / 2].more[second % 2];
+    const Spoke &a = star.spokes[first / 2], &b = star.spokes[second / 2];
+    weight = fold_weight(a.corner / 4, b.corner / 4, first % 2 == second % 2);
+    if (!input_.group.empty() && input_.group[a.corner / 4] != input_.group[b.corner / 4])
+      weight = std::max(weight, kSeamWeight);
+    if (wedges_) weight = std::max(weight, seam_weight(a, first % 2, b, second % 2));
+    if (weight == 0) return;
+  }
+  const Vec3f along = complex_.offset(star.vertex, edge.vertex);
+  Quadric& quadric = quadrics_[star.vertex];
+  const float length_squared = dot(along, along);
+  weight *= length_squared / static_cast<float>(edge.triangles);
+  for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
+    const Vec3f face = normals_[star.spokes[i / 2].corner / 4];
+    const Vec3f side = cross(along, face);
+    const float length = std::sqrt(dot(side, side));
+    if (length > 0)
+      quadric.add_plane(side * (1 / length), weight);
+    else if (length_squared > 0)  // a face without area: hold the line from all sides
+      quadric.add_line(along * (1 / std::sqrt(length_squared)), weight);
+  }
+}
+
+// Faces that lie on each other, back to back, do not hold their common edge; beyond a right angle
+// it needs holding more and more.
+float QuadricBuilder::fold_weight(Index a, Index b, bool same_direction) const {
+  const float cosine = dot(normals_[a], normals_[b]) * (same_direction ? -1.f : 1.f);
+  return kBorderWeight * std::max(0.f, -cosine);
+}
+
+// An edge is a seam where its faces use different wedges; as much as their attributes differ.
+float QuadricBuilder::seam_weight(const Spoke& a, Index side_a, const Spoke& b,
+                                  Index side_b) const {
+  const auto far = [](const Spoke& s, Index side) {
+    return side == 0 ? Complex::next(s.corner) : Complex::previous(s.corner);
+  };
+  const std::vector<Index>& wedge = wedges_->corner_wedge;
+  float weight = 0;
+  for (const auto& [x, y] : {std::pair{wedge[a.corner], wedge[b.corner]},
+                             std::pair{wedge[far(a, side_a)], wedge[far(b, side_b)]}}) {
+    if (x == y) continue;
+    if (wedges_->attribute_count() == 0) return kSeamWeight;
+    // From a tenth of the whole range on a jump is as visible as it can be.
+    weight = std::max(weight, std::min(1.f, 10 * wedges_->largest_difference(x, y)));
+  }
+  return kSeamWeight * weight;
 }
 
 }  // namespace pstrip

@@ -8,12 +8,32 @@
 
 namespace pstrip {
 
-/// The error quadric of every vertex before the first collapse: planes of its faces by area, and
-/// planes that hold its borders, seams and folds in place. [Garland97 §3.4, §6]
-///
-/// Sets the weight and `regular` of each vertex record, and the attribute terms of the wedges when
-/// there are some (`wedges` may be null). Cost O(size).
-std::vector<Quadric> initial_quadrics(Complex& complex, const SimplifyInput& input,
-                                      WedgeTable* wedges);
+/// The error quadrics of a complex before its first collapse: planes of the faces by area, and
+/// planes that hold borders, seams and folds in place. [Garland97 §3.4, §6]
+class QuadricBuilder {
+ public:
+  /// Starts `quadrics` with the faces, and adds the attribute terms to `wedges`, which may be null.
+  /// All arguments must outlive the builder. Cost O(size).
+  QuadricBuilder(const Complex& complex, const SimplifyInput& input, WedgeTable* wedges,
+                 std::vector<Quadric>& quadrics);
+
+  /// Adds what the edges of one vertex bring to its quadric. Cost O(star).
+  void add_edges(const Star& star);
+
+ private:
+  void add_face(Index triangle);
+  void add_attributes(Index corner, const Index (&vertices)[3], Vec3f e1, Vec3f e2, Vec3f normal,
+                      float area);
+  void add_edge(const Star& star, const StarEdge& edge);
+  float fold_weight(Index a, Index b, bool same_direction) const;
+  float seam_weight(const Spoke& a, Index side_a, const Spoke& b, Index side_b) const;
+  bool is_locked(Index vertex) const;
+
+  const Complex& complex_;
+  const SimplifyInput& input_;
+  WedgeTable* wedges_;
+  std::vector<Quadric>& quadrics_;
+  std::vector<Vec3f> normals_;  // unit, or zero
+};
 
 }  // namespace pstrip

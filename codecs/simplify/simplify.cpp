@@ -47,10 +47,11 @@ enum Guard : std::uint8_t { kPasses, kBorder, kLink, kFlip };
 class Simplifier {
  public:
   Simplifier(const SimplifyInput& input, const SimplifyOptions& options)
-      : options_(options), complex_(input.positions, input.wedge_vertex, input.triangles) {
+      : input_(input),
+        options_(options),
+        complex_(input.positions, input.wedge_vertex, input.triangles) {
     if (!input.wedge_vertex.empty() || input.attribute_count > 0)
       wedges_.emplace(input, complex_.diagonal);
-    quadrics_ = initial_quadrics(complex_, input, wedges_ ? &*wedges_ : nullptr);
     out_.triangles_left = input.triangles.size() / 3;
     if (options.max_error >= 0) {
       const double limit = options.max_error * complex_.scale[0] * complex_.scale[1];
@@ -61,11 +62,15 @@ class Simplifier {
   CollapseSequence run(const Progress& progress);
 
  private:
+  void fill_heap();
   float evaluate(Index q);
   void price(Index q, StarEdge& edge);
   void price_wedges(StarEdge& edge, Vec3f offset);
   float plain_cost(Index q, Index p) const;
+  StarEdge* next_edge(Index q, float limit);
   StarEdge* choose(Index q, float limit);
+  void refuse(Index q, StarEdge& edge, Guard guard);
+  void gather(Index q);
   Guard guard(Index q, const StarEdge& edge);
   bool breaks_border(const StarEdge& edge) const;
   bool breaks_link(Index p);
@@ -73,9 +78,12 @@ class Simplifier {
   bool has_triangle(Index a, Index b, Index c);
   bool flips(Index q, Index p) const;
   void collapse(Index q, const StarEdge& edge);
-  void touch(Index x, Index p);
-  void lower(Index x, float key);
+  void renew(Index p);
+  void touch(Index x, Index q, Index p);
+  void reconsider(Index x);
+  void set_key(Index x, float key);
 
+  const SimplifyInput& input_;
   const SimplifyOptions& options_;
   Complex complex_;
   std::optional<WedgeTable> wedges_;  // none when each vertex has one wedge and no attributes
@@ -93,17 +101,11 @@ class Simplifier {
 CollapseSequence Simplifier::run(const Progress& progress) {
   const std::uint64_t start = out_.triangles_left, target = options_.target_triangles;
   if (start <= target) return std::move(out_);
-  std::vector<float> keys(complex_.vertex_count(), kInfinity);
-  for (Index v = 0; v < keys.size(); ++v) {
-    if (complex_.vertices[v].error == kInfinity) continue;
-    keys[v] = complex_.vertices[v].key = complex_.vertices[v].floor = evaluate(v);
-  }
-  heap_.emplace(keys);
+  fill_heap();
   out_.stop = SimplifyStop::exhausted;
   while (!heap_->empty()) {
     const Index q = heap_->top();
-    evaluate(q);
-    const StarEdge* const edge = choose(q, heap_->second_key());
+    const StarEdge* const edge = next_edge(q, heap_->second_key());
     if (!edge) continue;
     collapse(q, *edge);
     if (out_.triangles_left <= target) {
@@ -122,13 +124,33 @@ CollapseSequence Simplifier::run(const Progress& progress) {
   return std::move(out_);
 }
 
-// Fills the star and the costs of its edges, guards aside; returns the least.
-float Simplifier::evaluate(Index q) {
-  VertexRecord& record = complex_.vertices[q];
-  if (record.regular && !wedges_)
+void Simplifier::gather(Index q) {
+  if (complex_.vertices[q].regular && !wedges_)
     complex_.gather_regular(q, star_);
   else
     complex_.gather(q, star_);
+}
+
+void Simplifier::fill_heap() {
+  QuadricBuilder builder(complex_, input_, wedges_ ? &*wedges_ : nullptr, quadrics_);
+  std::vector<float> keys(complex_.vertex_count(), kInfinity);
+  for (Index v = 0; v < keys.size(); ++v) {
+    VertexRecord& record = complex_.vertices[v];
+    complex_.gather(v, star_);
+    record.regular =
+        star_.open_edges == 0 &&
+        std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
+    builder.add_edges(star_);
+    // No vertex has an error yet, so the other ends need not be complete.
+    if (record.error < kInfinity) keys[v] = evaluate(v);
+    record.key = keys[v];
+  }
+  heap_.emplace(keys);
+}
+
+// Fills the costs of the star's edges, guards aside; returns the least.
+float Simplifier::evaluate(Index q) {
+  VertexRecord& record = complex_.vertices[q];
   if (wedges_) {
     live_weight_ = 0;
     wedges_->new_epoch();
@@ -140,11 +162,20 @@ float Simplifier::evaluate(Index q) {
     }
   }
   float least = kInfinity;
+  record.others = kInfinity;
+  record.best = kNone;
   for (StarEdge& edge : star_.edges) {
     price(q, edge);
-    least = std::min(least, edge.cost);
+    if (edge.cost < least) {
+      record.others = least;
+      record.best = edge.vertex;
+      least = edge.cost;
+    } else if (edge.cost < record.others) {
+      record.others = edge.cost;
+    }
   }
-  record.floor = least;
+  // With wedges, cost() of one edge does not tell whether the others are still dearer.
+  if (wedges_) record.best = kNone, record.others = least;
   record.touches = 0;
   return least;
 }
@@ -153,12 +184,12 @@ void Simplifier::price(Index q, StarEdge& edge) {
   const VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[edge.vertex];
   const Vec3f offset = complex_.offset(q, edge.vertex);
   edge.error = from.error + quadrics_[q].at(offset);
-  edge.cost = kLengthShare * from.weight * dot(offset, offset);
+  edge.cost = kLengthShare * quadrics_[q].weight * dot(offset, offset);
   if (wedges_) price_wedges(edge, offset);
   edge.error = std::max(edge.error, 0.f);
   edge.cost += edge.error + kKeptShare * to.error;
-  if (!(edge.cost < kInfinity) || edge.error + to.error > most_error_ * (from.weight + to.weight))
-    edge.cost = kInfinity;
+  const float limit = most_error_ * (quadrics_[q].weight + quadrics_[edge.vertex].weight);
+  if (!(edge.cost < kInfinity) || edge.error + to.error > limit) edge.cost = kInfinity;
 }
 
 void Simplifier::price_wedges(StarEdge& edge, Vec3f offset) {
@@ -184,12 +215,43 @@ void Simplifier::price_wedges(StarEdge& edge, Vec3f offset) {
 float Simplifier::plain_cost(Index q, Index p) const {
   const VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[p];
   const Vec3f offset = complex_.offset(q, p);
-  const float length = kLengthShare * from.weight * dot(offset, offset);
+  const float length = kLengthShare * quadrics_[q].weight * dot(offset, offset);
   return std::max(from.error + quadrics_[q].at(offset), 0.f) + length + kKeptShare * to.error;
 }
 
-// The edge of the star to collapse now, or null after the vertex was put back under the right key
-// or dropped. Refused edges are made dearer and compared again.
+// The edge to collapse now that q is on top of the heap, all others having a key of at least
+// `limit`. Null after q was put back under a better bound or dropped.
+StarEdge* Simplifier::next_edge(Index q, float limit) {
+  VertexRecord& record = complex_.vertices[q];
+  if (record.best == kNone) {
+    gather(q);
+    evaluate(q);
+    return choose(q, limit);
+  }
+  const float cost = plain_cost(q, record.best);
+  if (std::min(cost, record.others) > limit) {
+    if (cost > record.others) record.best = kNone;
+    set_key(q, std::min(cost, record.others));
+    return nullptr;
+  }
+  gather(q);
+  const Index best = record.best;
+  if (cost <= record.others) {
+    const auto edge = std::ranges::find(star_.edges, best, &StarEdge::vertex);
+    if (edge != star_.edges.end()) {
+      price(q, *edge);
+      const Guard refused = edge->cost < kInfinity ? guard(q, *edge) : kPasses;
+      if (refused == kPasses && edge->cost < kInfinity) return &*edge;
+      evaluate(q);
+      if (refused != kPasses) refuse(q, *edge, refused);
+      return choose(q, limit);
+    }
+  }
+  evaluate(q);
+  return choose(q, limit);
+}
+
+// Refused edges are made dearer and compared again.
 StarEdge* Simplifier::choose(Index q, float limit) {
   VertexRecord& record = complex_.vertices[q];
   const bool large = star_.spokes.size() > kLargeRing;
@@ -206,20 +268,28 @@ StarEdge* Simplifier::choose(Index q, float limit) {
     }
     if (best->cost > limit) {
       // A large ring comes up less often when its key is a little too high.
-      record.key = large ? best->cost * 1.25f : best->cost;
-      heap_->update(q, record.key);
+      set_key(q, large ? best->cost * 1.25f : best->cost);
       return nullptr;
     }
-    if (best->refused) return best;
+    if (best->refused != kPasses) return best;
     const bool give_up = large && checks == kMostGuardChecks;
     for (StarEdge& edge : star_.edges) {
       if (give_up ? edge.refused != kPasses : &edge != best) continue;
-      edge.refused = give_up ? kFlip : guard(q, edge);
-      if (edge.refused == kPasses) return best;
-      const Vec3f offset = complex_.offset(q, edge.vertex);
-      edge.cost += kForcedShare * record.weight * dot(offset, offset);
+      const Guard refused = give_up ? kFlip : guard(q, edge);
+      if (refused == kPasses) return best;
+      refuse(q, edge, refused);
     }
   }
+}
+
+// From here on the bound of q holds without guards only.
+void Simplifier::refuse(Index q, StarEdge& edge, Guard guard) {
+  VertexRecord& record = complex_.vertices[q];
+  if (record.best != kNone) record.others = std::min(record.others, plain_cost(q, record.best));
+  record.best = kNone;
+  edge.refused = guard;
+  const Vec3f offset = complex_.offset(q, edge.vertex);
+  edge.cost += kForcedShare * quadrics_[q].weight * dot(offset, offset);
 }
 
 Guard Simplifier::guard(Index q, const StarEdge& edge) {
@@ -337,8 +407,8 @@ void Simplifier::collapse(Index q, const StarEdge& edge) {
 
   quadrics_[p].add(quadrics_[q], offset * -1);
   to.error += edge.error;
-  to.weight += from.weight;
-  const float mean = to.weight > 0 ? std::sqrt(to.error / to.weight) : 0;
+  const float weight = quadrics_[p].weight;
+  const float mean = weight > 0 ? std::sqrt(to.error / weight) : 0;
   const double error = mean / complex_.scale[0] / complex_.scale[1];
   last_error_ = std::max(
       last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
@@ -361,36 +431,66 @@ void Simplifier::collapse(Index q, const StarEdge& edge) {
     for (const StarEdge& other : star_.edges) complex_.vertices[other.vertex].regular = false;
   }
   to.regular &= from.regular;
-  const StarEdge* const chosen = &edge;
-  float least = to.key;
-  for (const StarEdge& other : star_.edges) {
-    if (&other == chosen) continue;
-    touch(other.vertex, p);
-    least = std::min(least, plain_cost(p, other.vertex));
-  }
-  if (to.ring_size > kLargeRing)
-    touch(p, q);
-  else
-    lower(p, std::min(least, to.floor));
+  for (const StarEdge& other : star_.edges)
+    if (other.vertex != p) touch(other.vertex, q, p);
+  renew(p);
 }
 
-// The star of x has changed, and p may be a new neighbour.
-void Simplifier::touch(Index x, Index p) {
-  VertexRecord& record = complex_.vertices[x];
-  if (record.ring_size > kLargeRing) {
-    if (++record.touches < std::min<Index>(record.ring_size / 8, 0xffff)) return;
-    record.touches = 0;
-    lower(x, record.floor);
+// All edges of p are dearer than they were; those it took over, on the star, are new.
+void Simplifier::renew(Index p) {
+  VertexRecord& record = complex_.vertices[p];
+  if (record.key == kInfinity) return;
+  if (record.ring_size <= kLargeRing) {
+    gather(p);
+    const float least = evaluate(p);
+    if (least < kInfinity) return set_key(p, least);
+    heap_->remove(p);
+    record.key = kInfinity;
     return;
   }
-  lower(x, std::min(record.floor, plain_cost(x, p)));
+  float bound = record.best == kNone ? record.others : std::min(record.key, record.others);
+  for (const StarEdge& edge : star_.edges)
+    if (edge.vertex != p) bound = std::min(bound, plain_cost(p, edge.vertex));
+  record.best = kNone;
+  record.others = bound;
+  reconsider(p);
 }
 
-// A vertex that left the heap, since its star was used up or too dear, stays out.
-void Simplifier::lower(Index x, float key) {
+// Around x, q has gone to p, which may be a new neighbour. What else was known of x still holds,
+// as errors do not fall.
+void Simplifier::touch(Index x, Index q, Index p) {
   VertexRecord& record = complex_.vertices[x];
-  if (!(key < record.key) || record.error == kInfinity || !heap_->contains(x)) return;
-  record.key = record.floor = key;
+  if (record.key == kInfinity) return;  // left the heap
+  const float cost = plain_cost(x, p);
+  if (record.best == kNone) {
+    record.others = std::min(record.others, cost);
+    reconsider(x);
+    return;
+  }
+  if (record.best == q) {
+    record.best = cost <= record.others ? p : kNone;
+  } else if (cost < record.key) {
+    if (record.best != p) record.others = std::min(record.others, record.key);
+    record.best = p;
+  } else if (record.best != p) {
+    record.others = std::min(record.others, cost);
+  }
+  if (cost < record.key) set_key(x, cost);
+}
+
+// A vertex whose best edge is not known may come up as early as its bound allows, since its guards
+// may answer differently now.
+void Simplifier::reconsider(Index x) {
+  VertexRecord& record = complex_.vertices[x];
+  if (!(record.others < record.key) || record.key == kInfinity) return;
+  if (record.ring_size > kLargeRing && ++record.touches < std::min(record.ring_size / 8, 0xffffu))
+    return;
+  record.touches = 0;
+  set_key(x, record.others);
+}
+
+void Simplifier::set_key(Index x, float key) {
+  complex_.vertices[x].key = key;
   heap_->update(x, key);
 }
 
