@@ -79,6 +79,10 @@ struct Source {
   }
 };
 
+/// Bytes of element.count rows; in ascii a guess for reserving memory.
+std::size_t expected_bytes(const Element& element, std::span<const Source> sources,
+                           Encoding encoding);
+
 /// Appends element.count rows. Precondition: the values fit the property types.
 void write_rows(const Element& element, std::span<const Source> sources, Encoding encoding,
                 Bytes& out);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 
 #include "formats/ply/ply_body.h"
@@ -8,31 +9,39 @@
 namespace pstrip::ply {
 namespace {
 
+/// Writes by way of a block that stays in the cache.
 class AsciiRows {
  public:
-  explicit AsciiRows(Bytes& out) : out_(out), used_(out.size()) {}
-  ~AsciiRows() { out_.resize(used_); }
+  explicit AsciiRows(Bytes& out) : out_(out), block_(kBlockBytes) {}
+  ~AsciiRows() { flush(); }
   AsciiRows(const AsciiRows&) = delete;
   AsciiRows& operator=(const AsciiRows&) = delete;
 
-  void reserve(std::size_t values) {
-    const std::size_t need = used_ + (values + 1) * kMaxNumberChars;
-    if (out_.size() < need) out_.resize(std::max(need, out_.size() + out_.size() / 2));
-  }
   template <class T>
   void number(T value) {
-    auto* const at = reinterpret_cast<char*>(out_.data() + used_);
+    if (block_.size() - used_ < kMaxNumberChars) flush();
+    char* const at = block_.data() + used_;
     char* const end = format_number(at, value);
     *end = ' ';
     used_ += static_cast<std::size_t>(end + 1 - at);
   }
   void end_row() {
-    if (used_ != 0) out_[used_ - 1] = std::byte{'\n'};
+    assert(used_ != 0);  // flush() comes before a number, never after
+    block_[used_ - 1] = '\n';
   }
 
  private:
+  static constexpr std::size_t kBlockBytes = 32 << 10;
+
+  void flush() {
+    const auto bytes = std::as_bytes(std::span(block_.data(), used_));
+    out_.insert(out_.end(), bytes.begin(), bytes.end());
+    used_ = 0;
+  }
+
   Bytes& out_;
-  std::size_t used_;
+  std::vector<char> block_;
+  std::size_t used_ = 0;
 };
 
 /// Writes to memory that is known to suffice.
@@ -41,7 +50,6 @@ class BinaryRows {
  public:
   explicit BinaryRows(std::byte* to) : to_(to) {}
 
-  void reserve(std::size_t) {}
   template <class T>
   void number(T value) {
     if constexpr (kSwap) value = swap_bytes(value);
@@ -72,7 +80,6 @@ template <class Rows>
 void write_all(Rows& rows, const Element& element, std::span<const Source> sources) {
   std::vector<std::size_t> used(sources.size());  // values of the rows before
   for (std::size_t row = 0; row < element.count; ++row) {
-    rows.reserve(sources.size());
     for (std::size_t p = 0; p < sources.size(); ++p) {
       const Source& source = sources[p];
       const Property& property = element.properties[p];
@@ -86,7 +93,6 @@ void write_all(Rows& rows, const Element& element, std::span<const Source> sourc
         continue;
       }
       const std::size_t count = source.size(row);
-      rows.reserve(count + sources.size());
       visit_type(property.count_type,
                  [&](auto zero) { rows.number(static_cast<decltype(zero)>(count)); });
       write_values(rows, property.type, source, used[p], count);
@@ -112,15 +118,17 @@ void write_fixed_rows(const Element& element, std::span<const Source> sources, S
   move_rows(lanes, element.count, swap);
 }
 
-std::size_t binary_bytes(const Element& element, std::span<const Source> sources) {
-  std::size_t bytes = 0;
-  for (std::size_t p = 0; p < sources.size(); ++p) {
-    const Property& property = element.properties[p];
-    bytes += element.count * size_of(property.is_list() ? property.count_type : property.type);
-    for (std::size_t row = 0; property.is_list() && row < element.count; ++row)
-      bytes += sources[p].size(row) * size_of(property.type);
-  }
-  return bytes;
+/// Values of all rows of a list.
+std::size_t values_of(const Element& element, const Source& source) {
+  std::size_t values = 0;
+  for (std::size_t row = 0; row < element.count; ++row) values += source.size(row);
+  return values;
+}
+
+/// What a number usually takes in ascii with its separator; guides a reservation only.
+std::size_t usual_chars(ComponentType type) {
+  constexpr std::size_t kChars[] = {4, 4, 6, 6, 8, 8, 12, 20};
+  return kChars[static_cast<std::size_t>(type)];
 }
 
 template <bool kSwap>
@@ -128,12 +136,26 @@ void write_binary(const Element& element, std::span<const Source> sources, Bytes
   const bool fixed = std::ranges::none_of(element.properties, &Property::is_list);
   if (fixed) return write_fixed_rows(element, sources, kSwap ? Swap::to : Swap::none, out);
   const std::size_t start = out.size();
-  out.resize(start + binary_bytes(element, sources));
+  out.resize(start + expected_bytes(element, sources, Encoding::little_endian));
   BinaryRows<kSwap> rows(out.data() + start);
   write_all(rows, element, sources);
 }
 
 }  // namespace
+
+std::size_t expected_bytes(const Element& element, std::span<const Source> sources,
+                           Encoding encoding) {
+  const auto bytes_each = [&](ComponentType type) {
+    return encoding == Encoding::ascii ? usual_chars(type) : size_of(type);
+  };
+  std::size_t bytes = 0;
+  for (std::size_t p = 0; p < sources.size(); ++p) {
+    const Property& property = element.properties[p];
+    bytes += element.count * bytes_each(property.is_list() ? property.count_type : property.type);
+    if (property.is_list()) bytes += values_of(element, sources[p]) * bytes_each(property.type);
+  }
+  return bytes;
+}
 
 void write_rows(const Element& element, std::span<const Source> sources, Encoding encoding,
                 Bytes& out) {

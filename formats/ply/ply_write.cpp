@@ -334,9 +334,8 @@ class ModelWriter {
     for (const Attribute& attribute : mesh_->face_attributes) face_attributes_.add(attribute);
     if (texnumber_) face_attributes_.add(*texnumber_);
     if (!set_attributes("face", face_attributes_)) return false;
-    row_corners_ = mesh_->corners;
-    if (shape_ != Shape::wedges)
-      for (Index& corner : row_corners_) corner = mesh_->vertex_of(corner);
+    if (shape_ != Shape::wedges && !mesh_->wedge_vertex.empty())
+      for (const Index wedge : mesh_->corners) row_corners_.push_back(mesh_->wedge_vertex[wedge]);
     if (shape_ == Shape::vertices_texcoords) {
       const auto texcoord = std::ranges::find_if(mesh_->wedge_attributes, is_texcoord);
       corner_texcoords_ = gathered(*texcoord, mesh_->corners);
@@ -532,7 +531,9 @@ class ModelWriter {
                 .data = reinterpret_cast<const std::byte*>(wedge_rows_.data()),
                 .stride = sizeof(Index)};
       case Role::corners:
-        return corner_source({.kind = Source::Kind::indices, .indices = row_corners_.data()});
+        return corner_source(
+            {.kind = Source::Kind::indices,
+             .indices = row_corners_.empty() ? mesh_->corners.data() : row_corners_.data()});
       case Role::texcoord:
         if (shape_ != Shape::vertices_texcoords) return kept_source(property);
         return corner_source(
@@ -550,21 +551,30 @@ class ModelWriter {
                          place.component);
   }
 
+  std::vector<Source> sources_of(const Element& element) {
+    const bool is_vertex = element.name == "vertex";
+    const bool ours = mesh_ != nullptr && (is_vertex || element.name == "face");
+    const Layout layout = ours ? layout_of(element.name) : Layout{};
+    std::vector<Source> out;
+    for (std::size_t p = 0; p < element.properties.size(); ++p)
+      out.push_back(ours ? source_of(element.properties[p], layout.places[p], layout, is_vertex)
+                         : kept_source(element.properties[p]));
+    return out;
+  }
+
   Bytes write() {
+    std::vector<std::vector<Source>> sources;
     const std::string text = format_header(header());
-    const ByteView bytes = as_bytes(text);
-    Bytes out(bytes.begin(), bytes.end());
+    std::size_t bytes = text.size();
     for (const Element& element : header().elements) {
-      const bool is_vertex = element.name == "vertex";
-      const bool ours = mesh_ != nullptr && (is_vertex || element.name == "face");
-      const Layout layout = ours ? layout_of(element.name) : Layout{};
-      std::vector<Source> sources;
-      for (std::size_t p = 0; p < element.properties.size(); ++p)
-        sources.push_back(
-            ours ? source_of(element.properties[p], layout.places[p], layout, is_vertex)
-                 : kept_source(element.properties[p]));
-      write_rows(element, sources, encoding_, out);
+      sources.push_back(sources_of(element));
+      bytes += expected_bytes(element, sources.back(), encoding_);
     }
+    Bytes out;
+    out.reserve(bytes);
+    out.insert(out.end(), as_bytes(text).begin(), as_bytes(text).end());
+    for (std::size_t e = 0; e < sources.size(); ++e)
+      write_rows(header().elements[e], sources[e], encoding_, out);
     const Foreign* const rest = find_foreign(model_.scene.foreign, "ply/rest");
     if (rest != nullptr && encoding_ != Encoding::ascii)
       out.insert(out.end(), rest->data.begin(), rest->data.end());
