@@ -7,12 +7,12 @@ find_package(fmt 9.1 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(tinyxml2 9.0 REQUIRED)
-find_package(TinyGLTF 2.7 REQUIRED)
 find_path(EXPECTED_INCLUDE_DIR tl/expected.hpp REQUIRED)
 find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h REQUIRED)
 
 if(PSTRIPS_TESTS)
   find_package(GTest 1.12 REQUIRED)
+  find_package(TinyGLTF 2.7 REQUIRED)  # reads what we write, for comparison
   find_package(benchmark 1.7 REQUIRED)
   find_package(rapidcheck REQUIRED)
   find_package(tinyobjloader REQUIRED)  # 2.0.0~rc10; its config names no plain number

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "formats/gltf/container.h"
 #include "formats/gltf/fit.h"
@@ -112,9 +113,20 @@ Bytes aligned_elements(const Attribute& attribute, std::uint8_t rows, std::size_
   return out;
 }
 
-std::string_view file_ending(std::string_view path) {
-  const std::size_t dot = path.rfind('.');
-  return dot == std::string_view::npos ? "" : path.substr(dot + 1);
+/// Whether the MIME type, or without one the file's ending, is among those named.
+bool is_image_of(const Image& image, std::initializer_list<std::string_view> endings) {
+  const std::string& name = image.mime_type.empty() ? image.uri : image.mime_type;
+  const std::size_t dot = name.find_last_of("./");
+  std::string ending = dot == std::string::npos ? "" : name.substr(dot + 1);
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+/// The extension by which a texture names an image that is neither PNG nor JPEG.
+const char* texture_extension(const Image& image) {
+  if (is_image_of(image, {"ktx2"})) return "KHR_texture_basisu";
+  return is_image_of(image, {"webp"}) ? "EXT_texture_webp" : nullptr;
 }
 
 double finite_or(double value, double otherwise) {
@@ -147,9 +159,10 @@ class AssetWriter {
     add_images();
     add_index_views();
     if (quantized_) {
-      add_extension("extensionsUsed");
-      add_extension("extensionsRequired");
+      extensions_used_.emplace(kQuantization);
+      list_in("extensionsRequired").push_back(kQuantization);
     }
+    for (const std::string& name : extensions_used_) list_in("extensionsUsed").push_back(name);
     if (!accessors_.empty()) root_["accessors"] = std::move(accessors_);
     if (!views_.empty()) root_["bufferViews"] = std::move(views_);
     return finish();
@@ -398,8 +411,17 @@ class AssetWriter {
       if (!material.name.empty()) out["name"] = material.name;
       root_["materials"].push_back(std::move(out));
     }
-    for (std::size_t i = 0; i < model_.scene.images.size(); ++i)
-      root_["textures"].push_back({{"source", i}});
+    for (std::size_t i = 0; i < model_.scene.images.size(); ++i) {
+      json texture = json::object();
+      const char* extension = texture_extension(model_.scene.images[i]);
+      if (extension == nullptr) {
+        texture["source"] = i;
+      } else {
+        texture["extensions"][extension]["source"] = i;
+        extensions_used_.insert(extension);
+      }
+      root_["textures"].push_back(std::move(texture));
+    }
   }
 
   void add_images() {
@@ -418,29 +440,18 @@ class AssetWriter {
         if (!encoded) std::ranges::replace(path, '\\', '/');
         out["uri"] = encoded ? path : percent_encode(path);
       }
-      if (!kept_) note_image_format(image);
+      if (!kept_ && !is_image_of(image, {"png", "jpg", "jpeg", "ktx2", "webp"}))
+        dropped_.push_back("image " + (image.uri.empty() ? image.name : image.uri) +
+                           " is of a format that glTF does not know; viewers may not show it");
     }
-  }
-
-  void note_image_format(const Image& image) {
-    std::string ending(file_ending(image.uri));
-    for (char& c : ending)
-      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    constexpr std::string_view kKnown[] = {"png", "jpg", "jpeg"};
-    const bool known = image.data.empty()
-                           ? std::ranges::find(kKnown, ending) != std::end(kKnown)
-                           : image.mime_type == "image/png" || image.mime_type == "image/jpeg";
-    if (!known)
-      dropped_.push_back("image " + (image.uri.empty() ? image.name : image.uri) +
-                         " is neither PNG nor JPEG; few glTF viewers will show it");
   }
 
   // ---- files ----
 
-  void add_extension(const char* key) {
+  json& list_in(const char* key) {
     json& list = root_[key];
     if (!list.is_array()) list = json::array();
-    list.push_back(kQuantization);
+    return list;
   }
 
   Result<GltfFiles> finish() {
@@ -480,6 +491,7 @@ class AssetWriter {
   std::map<ComponentType, ByteWriter> index_streams_;
   std::vector<std::pair<std::size_t, ComponentType>> index_accessors_;
   bool quantized_ = false;
+  std::set<std::string> extensions_used_;  ///< those that the kept asset does not name
   std::vector<std::string> dropped_;
 };
 

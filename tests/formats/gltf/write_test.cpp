@@ -202,7 +202,8 @@ TEST(WriteGltf, ANewSceneKeepsNodesMaterialsAndImages) {
   material.base_color_image = 1;
   model.scene.materials = {material};
   model.scene.images = {{"in", "", "image/png", test::bytes_of<std::uint8_t>({1, 2, 3})},
-                        {"", "folder\\a b.png", "", {}}};
+                        {"", "folder\\a b.png", "", {}},
+                        {"", "c.KTX2", "", {}}};
   Node child{.name = "child", .parent = 0, .meshes = {0, 1}};
   child.matrix[12] = 4;
   model.scene.nodes = {{.name = "top", .meshes = {}}, child};
@@ -213,6 +214,8 @@ TEST(WriteGltf, ANewSceneKeepsNodesMaterialsAndImages) {
   EXPECT_EQ(scene.materials, model.scene.materials);
   EXPECT_EQ(scene.images[0], model.scene.images[0]);
   EXPECT_EQ(scene.images[1].uri, "folder/a%20b.png");
+  EXPECT_NE(as_text(files->main).find(R"("KHR_texture_basisu":{"source":2})"),
+            std::string_view::npos);
   ASSERT_EQ(scene.nodes.size(), 4u);  // two meshes at a node make two children
   EXPECT_EQ(scene.nodes[1].matrix, child.matrix);
   EXPECT_EQ(scene.nodes[2].meshes, std::vector<Index>{0});
