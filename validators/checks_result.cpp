@@ -230,7 +230,7 @@ void digest_matches(const Document& doc, Findings& out) {
     if (mesh.triangles != doc.replays[m].levels.back().triangles) return;  // another rule's
     Level level(mesh);
     level.refine_fully();
-    if (!std::ranges::equal(digest(mesh_of(level)), mesh.digest))
+    if (!std::ranges::equal(digest(mesh_of(level).value()), mesh.digest))
       out.add({.field = Field::digest, .mesh = m});
   });
 }

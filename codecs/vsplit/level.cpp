@@ -138,7 +138,7 @@ ByteView Level::positions() const {
   return ByteView(all).first(mesh_->position.element_bytes() * vertex_count());
 }
 
-Mesh mesh_of(const Level& level) {
+Result<Mesh> mesh_of(const Level& level) {
   const ProgressiveMesh& from = level.mesh();
   Mesh mesh;
   mesh.name = from.name;
@@ -156,6 +156,8 @@ Mesh mesh_of(const Level& level) {
   mesh.corners = std::move(triangles.corners);
   mesh.face_group = std::move(triangles.group);
   if (level.vertex_count() == from.vertices) {
+    if (mesh.corners.size() / 3 != from.triangles)
+      return fail(ErrorCode::corrupt, "shows another number of triangles than it says");
     if (!from.faces.first.empty()) apply_face_table(from.faces, mesh);
     mesh.face_attributes = from.faces.attributes;
   }

@@ -32,6 +32,9 @@ class Level {
     return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge];
   }
 
+  /// A vertex for each wedge; empty with single wedges.
+  std::span<const Index> wedge_vertices() const { return wedge_vertex_; }
+
   /// The index map with every symbol replaced by its wedge; restarts stay.
   std::span<const Index> resolved() const { return resolved_; }
   /// Position bytes of all vertices of the level, one element each.
@@ -61,9 +64,12 @@ class Level {
   std::vector<Index> pending_;       // scratch of write()
 };
 
-/// The mesh that a level shows, in decoded numbering; with `faces`, which needs the full level,
-/// polygons and other faces of the face table take the place of the triangles they replace.
-Mesh mesh_of(const Level& level);
+/// The mesh that a level shows, in decoded numbering. At the full level the faces of the face table
+/// take the place of the triangles they replace.
+///
+/// errors  corrupt when the full level does not show as many triangles as the mesh says, which the
+///         readers do not look into; its face table could not be applied then
+Result<Mesh> mesh_of(const Level& level);
 
 /// The original order, from a fully refined mesh in decoded numbering. [spec/model.md §7]
 /// Precondition: the lists of `order` are permutations of the right sizes.

@@ -309,9 +309,7 @@ Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
   mesh.base_map = std::move(map_);
   for (Index& entry : mesh.base_map)
     if (is_wedge(entry)) entry = wedge_to[entry];
-  if (mesh.single_wedges) {
-    mesh.wedge_places = {};
-  } else {
+  if (!mesh.single_wedges) {
     mesh.base_wedge_vertex.resize(mesh.base_wedges);
     for (Index w = 0; w < mesh.base_wedges; ++w)
       mesh.base_wedge_vertex[w] = vertex_to[wedge_vertex_[out.wedge_from[w]]];

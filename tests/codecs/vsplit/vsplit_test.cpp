@@ -169,7 +169,7 @@ void expect_exact(const Scenario& s, MapEncoding encoding) {
   whole.faces = faces.faces;
   Level full(whole);
   full.refine_fully();
-  ASSERT_EQ(restore_order(mesh_of(full), faces.order), s.mesh);
+  ASSERT_EQ(restore_order(mesh_of(full).value(), faces.order), s.mesh);
 }
 
 RC_GTEST_PROP(Vsplit, RandomCollapsesOfRandomSoupAreUndoneExactly, ()) {

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/option_groups.h"
+#include "cli/output.h"
+
+namespace pstrip::cli {
+namespace {
+
+struct Options {
+  std::string input, output;
+  std::string attributes;
+  bool ascii = false, gltf_strips = false, prefix = false;
+  TargetOption target;
+  EncodeOptionsGroup encode;
+  LevelOptions level;
+  LimitOptions limits;
+};
+
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> out;
+  if (list == "none") return out;
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    if (comma > 0) out.emplace_back(list.substr(0, comma));
+    list.remove_prefix(std::min(comma + 1, list.size()));
+  }
+  return out;
+}
+
+void report(const Streams& io, const Options& options, const LoadedFile& input,
+            const SavedFiles& saved) {
+  note(io, options.output, saved.notes);
+  if (io.quiet || options.output == "-") return;
+  io.err << fmt::format("{} ({}) -> {} ({})\n", escaped(options.input), byte_size(input.bytes),
+                        escaped(options.output), byte_size(saved.bytes));
+}
+
+// Strips to strips keeps the records; anything else goes through the mesh.
+bool keeps_records(const Options& options, const LoadedFile& file, FileFormat target) {
+  return file.is_progressive() && is_progressive(target) && !options.level.given() &&
+         options.attributes.empty();
+}
+
+ExitCode run(const Options& options, const Streams& io) {
+  const auto target = options.target.format_for(options.output);
+  if (!target) return complain(io, target.error());
+  const auto encode_options = options.encode.get();
+  if (!encode_options) return complain(io, encode_options.error());
+  ProgressBar bar(io);
+  auto file = load(options.input, {.limits = options.limits.limits,
+                                   .allow_prefix = options.prefix,
+                                   .text_options = *encode_options});
+  if (!file) return complain(io, file.error(), options.input);
+  note(io, options.input, file->notes);
+
+  Result<SavedFiles> saved;
+  if (keeps_records(options, *file, *target)) {
+    saved = save(std::get<ProgressiveStrips>(file->content), options.output, *target);
+  } else {
+    auto decoded = std::move(*file).model(options.level.choice);
+    if (!decoded) return complain(io, decoded.error(), options.input);
+    Model model = std::move(decoded).value();
+    if (!options.attributes.empty() && options.attributes != "all")
+      keep_attributes(model, split(options.attributes));
+    if (is_progressive(*target)) {
+      auto strips = encode(model, *encode_options, bar.callback());
+      if (!strips) return complain(io, strips.error(), options.input);
+      saved = save(*strips, options.output, *target);
+    } else {
+      saved = save(model, options.output, *target,
+                   {.ascii = options.ascii, .strips = options.gltf_strips});
+    }
+  }
+  if (!saved) return complain(io, saved.error(), options.output);
+  report(io, options, *file, *saved);
+  return kOk;
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& root) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app = root.add_subcommand("convert", "Turn a model into progressive strips, or back");
+  app->add_option("input", options->input, "Model or progressive file; - is standard input")
+      ->required();
+  app->add_option("output", options->output, "File to write; - is standard output")->required();
+  options->target.add_to(*app);
+  app->add_option("--attributes", options->attributes,
+                  "Attributes to keep: all, none, or a list such as NORMAL,TEXCOORD_0");
+  app->add_flag("--ascii", options->ascii, "PLY output as text");
+  app->add_flag("--gltf-strips", options->gltf_strips, "glTF output as strips, one primitive each");
+  app->add_flag("--allow-prefix", options->prefix,
+                "Accept a binary progressive file that ends early, as far as it goes");
+  options->encode.add_to(*app);
+  options->level.add_to(*app);
+  options->limits.add_to(*app);
+  return {app, [options](Streams io) { return run(*options, io); }};
+}
+
+}  // namespace pstrip::cli

@@ -1,0 +1,107 @@
+#include "cli/option_groups.h"
+
+#include <charconv>
+
+#include "codecs/stripify/stripify.h"
+
+namespace pstrip::cli {
+
+void FormatOption::add_to(CLI::App& app, bool with_csv) {
+  const std::vector<std::string> names = with_csv ? std::vector<std::string>{"text", "json", "csv"}
+                                                  : std::vector<std::string>{"text", "json"};
+  app.add_option("--format", format, "How to print the report")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+}
+
+void LimitOptions::add_to(CLI::App& app) {
+  const auto add = [&](const char* name, std::uint64_t& value, const char* what) {
+    app.add_option(name, value, what)->capture_default_str()->group("Limits");
+  };
+  add("--max-vertices", limits.vertices, "Refuse files with more vertices");
+  add("--max-wedges", limits.wedges, "Refuse files with more wedges");
+  add("--max-corners", limits.corners, "Refuse files with more face corners or map entries");
+  add("--max-meshes", limits.meshes, "Refuse files with more meshes, materials, images or nodes");
+  add("--max-string", limits.string_bytes, "Refuse longer names and comments (bytes)");
+  add("--max-memory", limits.memory_bytes, "Refuse files that need more memory to read (bytes)");
+  app.add_option("--max-depth", limits.xml_depth, "Refuse deeper nesting in XML and JSON")
+      ->capture_default_str()
+      ->group("Limits");
+}
+
+void LevelOptions::add_to(CLI::App& app) {
+  auto* packets = app.add_option("--level,--packet", choice.packets,
+                                 "Refine by this many packets; 0 is the base");
+  auto* triangles = app.add_option("--triangles", choice.triangles,
+                                   "Refine as far as there are at most this many triangles");
+  auto* error = app.add_option("--error", choice.error,
+                               "Refine until the distance estimate is at most this (model units)");
+  packets->check(CLI::NonNegativeNumber)->excludes(triangles)->excludes(error);
+  triangles->check(CLI::NonNegativeNumber)->excludes(error);
+  error->check(CLI::NonNegativeNumber);
+  for (auto* option : {packets, triangles, error}) option->group("Level of a progressive file");
+}
+
+void EncodeOptionsGroup::add_to(CLI::App& app) {
+  std::vector<std::string> names;
+  for (const NamedStripifier& s : stripifiers()) names.emplace_back(s.name);
+  constexpr const char* kGroup = "Progressive output";
+  app.add_option("--profile", profile, "Profile of the file")
+      ->check(CLI::IsMember({"plain"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--strips", strips, "Index-map encoding: wedges only, or offset differences too")
+      ->check(CLI::IsMember({"naive", "offset"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--stripifier", options.stripifier, "How triangles become strips")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str()
+      ->group(kGroup);
+  auto* share = app.add_option("--base", base, "Triangles of the base: N, or N% of the model")
+                    ->capture_default_str()
+                    ->group(kGroup);
+  app.add_option("--base-error", base_error,
+                 "Instead: largest distance estimate of the base (model units)")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(share)
+      ->group(kGroup);
+  app.add_flag("--keep-order", options.keep_order, "Keep the order of vertices, wedges and faces")
+      ->group(kGroup);
+}
+
+Result<EncodeOptions> EncodeOptionsGroup::get() const {
+  EncodeOptions out = options;
+  out.encoding = strips == "naive" ? MapEncoding::naive : MapEncoding::offset_difference;
+  if (base_error >= 0) {
+    out.base_error = base_error;
+    return out;
+  }
+  const bool share = base.ends_with('%');
+  const char* end = base.data() + base.size() - (share ? 1 : 0);
+  double number = 0;
+  const auto [rest, code] = std::from_chars(base.data(), end, number);
+  if (code != std::errc{} || rest != end || !(number >= 0) || (share && number > 100) ||
+      (!share && number != static_cast<double>(static_cast<std::uint64_t>(std::min(number, 1e18)))))
+    return fail(ErrorCode::bad_argument,
+                "--base takes a number of triangles or a percentage: " + base);
+  if (share)
+    out.base_share = number / 100;
+  else
+    out.base_triangles = static_cast<std::uint64_t>(number);
+  return out;
+}
+
+void TargetOption::add_to(CLI::App& app) {
+  app.add_option("--to", to, "Format of the output, where its name does not say it")
+      ->check(CLI::IsMember({"ply", "obj", "gltf", "glb", "pstrip", "pstripx", "pm"}));
+}
+
+Result<FileFormat> TargetOption::format_for(const std::string& path) const {
+  if (!to.empty()) return *format_named(to);
+  if (const auto format = format_of_path(path)) return *format;
+  return fail(ErrorCode::bad_argument, "cannot tell the format from the name; use --to", kNoOffset,
+              path);
+}
+
+}  // namespace pstrip::cli

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/command.h"
+#include "core/progress.h"
+#include "core/result.h"
+
+namespace pstrip::cli {
+
+/// Text from files as a terminal may see it: control characters and broken UTF-8 become \xNN.
+std::string escaped(std::string_view text);
+
+/// Prints an error as "pstrips: FILE: message (at byte N, PATH)" and gives its exit code.
+ExitCode complain(const Streams& io, const Error& error, std::string_view file = {});
+
+/// Notes on standard error, unless quiet: "pstrips: FILE: left out: …".
+void note(const Streams& io, std::string_view file, const std::vector<std::string>& notes);
+
+/// A table whose columns line up: numbers to the right, text to the left.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void print(std::ostream& out) const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+/// 1234567 as "1,234,567".
+std::string grouped(std::uint64_t value);
+/// Four significant digits, plain or scientific.
+std::string figure(double value);
+/// "12.3 kB", decimal units.
+std::string byte_size(std::uint64_t bytes);
+
+/// A progress bar on a terminal, nothing elsewhere; stops the work after an interrupt (Ctrl-C).
+/// The bar is cleared when the object ends.
+class ProgressBar {
+ public:
+  explicit ProgressBar(const Streams& io) : io_(io) {}
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  Progress callback();
+
+ private:
+  const Streams& io_;
+  bool shown_ = false;
+};
+
+/// Makes Ctrl-C and SIGTERM remove temporary files before they end the program.
+void install_interrupt_handler();
+
+}  // namespace pstrip::cli

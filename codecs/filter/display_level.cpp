@@ -1,0 +1,79 @@
+#include "codecs/filter/display_level.h"
+
+#include <algorithm>
+
+namespace pstrip {
+
+DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, AppendFilter filter)
+    : level_(mesh),
+      filter_(filter),
+      strips_(strip_ranges(level_.resolved())),
+      segments_(strips_.size()),
+      filtered_to_(level_.mark()),
+      is_touched_(strips_.size()) {
+  for (std::size_t s = 0; s < strips_.size(); ++s) refilter(s);
+}
+
+void DisplayLevel::refine(Index vsplits) { level_.refine(vsplits); }
+
+std::size_t DisplayLevel::update() {
+  touched_.clear();
+  for (const Index place : level_.places_since(filtered_to_)) {
+    const auto after = std::ranges::upper_bound(strips_, place, {}, &StripRange::first);
+    const auto strip = static_cast<Index>(after - strips_.begin() - 1);
+    if (is_touched_[strip]) continue;
+    is_touched_[strip] = true;
+    touched_.push_back(strip);
+  }
+  filtered_to_ = level_.mark();
+  for (const Index strip : touched_) {
+    refilter(strip);
+    is_touched_[strip] = false;
+  }
+  if (pool_.size() > 2 * used_ + 1024) compact();
+  return touched_.size();
+}
+
+void DisplayLevel::refilter(std::size_t strip) {
+  Segment& segment = segments_[strip];
+  used_ -= segment.entries;
+  cost_.vertices_sent -= segment.cost.vertices_sent;
+  cost_.restarts -= segment.cost.restarts;
+  segment.first = pool_.size();
+  const StripRange& range = strips_[strip];
+  filter_(level_.resolved().subspan(range.first, range.end - range.first), level_.wedge_vertices(),
+          pool_);
+  segment.entries = static_cast<Index>(pool_.size() - segment.first);
+  segment.cost = display_cost(std::span(pool_).subspan(segment.first));
+  used_ += segment.entries;
+  cost_.vertices_sent += segment.cost.vertices_sent;
+  cost_.restarts += segment.cost.restarts;
+}
+
+void DisplayLevel::compact() {
+  DisplayStrips pool{kRestart};
+  pool.reserve(used_ + 1);
+  for (Segment& segment : segments_) {
+    const auto first = pool_.begin() + static_cast<std::ptrdiff_t>(segment.first);
+    segment.first = pool.size();
+    pool.insert(pool.end(), first, first + segment.entries);
+  }
+  pool_ = std::move(pool);
+}
+
+DisplayCost DisplayLevel::cost() const {
+  DisplayCost out = cost_;
+  if (out.restarts > 0) --out.restarts;  // the first segment's
+  return out;
+}
+
+void DisplayLevel::append_display(DisplayStrips& out) const {
+  const std::size_t start = out.size();
+  for (const Segment& segment : segments_) {
+    const auto first = pool_.begin() + static_cast<std::ptrdiff_t>(segment.first);
+    out.insert(out.end(), first, first + segment.entries);
+  }
+  if (start == 0 && !out.empty()) out.erase(out.begin());  // the first segment's restart
+}
+
+}  // namespace pstrip

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "codecs/filter/display_strips.h"
+#include "codecs/vsplit/level.h"
+
+namespace pstrip {
+
+/// A level and its display strips, kept in step: after some vsplits only the strips that they
+/// rewrote are filtered again. [Kim04 §3.1, the reconstruction stage]
+class DisplayLevel {
+ public:
+  /// The mesh must outlive this; `filter` as in display_filters(). O(map) at first.
+  DisplayLevel(const ProgressiveMesh& mesh, AppendFilter filter);
+
+  /// Applies the next vsplits. O(entries rewritten); filters nothing yet.
+  void refine(Index vsplits);
+  const Level& level() const { return level_; }
+
+  /// Filters what has been rewritten since the last call; returns how many strips that were.
+  std::size_t update();
+  /// Appends the display strips as of the last update(), restarts included. O(their size).
+  void append_display(DisplayStrips& out) const;
+  /// What they cost, as of the last update(). O(1).
+  DisplayCost cost() const;
+
+ private:
+  struct Segment {
+    std::size_t first = 0;
+    Index entries = 0;
+    DisplayCost cost;
+  };
+  void refilter(std::size_t strip);
+  void compact();
+
+  Level level_;
+  AppendFilter filter_;
+  std::vector<StripRange> strips_;
+  std::vector<Segment> segments_;  // of the pool, one a strip
+  // A restart, then segments that each begin with one; old ones stay until compact().
+  DisplayStrips pool_{kRestart};
+  std::size_t used_ = 0;  // entries of the pool in segments
+  Level::Mark filtered_to_;
+  std::vector<Index> touched_;  // scratch of update()
+  std::vector<bool> is_touched_;
+  DisplayCost cost_;
+};
+
+}  // namespace pstrip

@@ -1,0 +1,113 @@
+#include "converters/decode.h"
+
+#include <algorithm>
+
+namespace pstrip {
+namespace {
+
+std::vector<Index> vsplits_after(const ProgressiveStrips& strips, std::size_t packets) {
+  std::vector<Index> done(strips.meshes.size(), 0);
+  for (std::size_t k = 0; k < packets; ++k)
+    done[strips.packets[k].mesh] += strips.packets[k].vsplits;
+  return done;
+}
+
+// What the first packets of a mesh leave of its arrays.
+void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
+  std::size_t wedges = 0, carried = 0, places = 0;
+  for (Index i = 0; i < vsplits; ++i) {
+    wedges += mesh.single_wedges ? 1 : mesh.vsplits[i].wedges;
+    carried += mesh.vsplits[i].carried;
+    places += mesh.vsplits[i].places;
+  }
+  mesh.vsplits.resize(vsplits);
+  mesh.vertices = mesh.base_vertices + vsplits;
+  mesh.wedges = mesh.base_wedges + static_cast<Index>(wedges);
+  mesh.triangles = last.triangles;
+  mesh.strips = last.strips;
+  mesh.position.data.resize(mesh.position.element_bytes() * mesh.vertices);
+  for (Attribute& a : mesh.wedge_attributes) a.data.resize(a.element_bytes() * mesh.wedges);
+  if (mesh.placement == Placement::free)
+    mesh.parent_position.resize(mesh.position.element_bytes() * vsplits);
+  mesh.wedge_places.resize(wedges);
+  mesh.carried.resize(carried);
+  mesh.places.resize(places);
+  mesh.faces = {};
+  mesh.face_attribute_formats = {};
+  mesh.order = {};
+  mesh.digest = {};
+}
+
+}  // namespace
+
+std::size_t packets_for(const ProgressiveStrips& strips, const LevelChoice& choice) {
+  const std::size_t all = strips.packets.size();
+  if (choice.packets >= 0) return std::min(all, static_cast<std::size_t>(choice.packets));
+  std::vector<Packet> now = strips.bases;  // what each mesh shows
+  const auto triangles = [&] {
+    std::int64_t sum = 0;
+    for (const Packet& p : now) sum += p.triangles;
+    return sum;
+  };
+  const auto error = [&] {
+    float worst = 0;
+    for (const Packet& p : now) worst = std::max(worst, p.error);
+    return static_cast<double>(worst);
+  };
+  std::size_t fitting = 0;
+  for (std::size_t k = 0; k <= all; ++k) {
+    if (k > 0) now[strips.packets[k - 1].mesh] = strips.packets[k - 1];
+    if (choice.triangles >= 0) {
+      if (triangles() <= choice.triangles) fitting = k;
+    } else if (choice.error >= 0) {
+      if (error() <= choice.error) return k;
+    }
+  }
+  return choice.triangles >= 0 ? fitting : all;
+}
+
+Result<Mesh> decoded_mesh(const Level& level) {
+  const ProgressiveMesh& mesh = level.mesh();
+  Result<Mesh> decoded = mesh_of(level);
+  const bool full = level.vertex_count() == mesh.vertices;
+  if (!decoded || !full || mesh.order.vertex.size() != mesh.vertices) return decoded;
+  return restore_order(*decoded, mesh.order);
+}
+
+Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets) {
+  Model model;
+  model.scene = strips.scene;
+  const std::vector<Index> vsplits =
+      vsplits_after(strips, std::min(packets, strips.packets.size()));
+  for (std::size_t m = 0; m < strips.meshes.size(); ++m) {
+    Level level(strips.meshes[m]);
+    level.refine(vsplits[m]);
+    Result<Mesh> mesh = decoded_mesh(level);
+    if (!mesh) {
+      mesh.error().path = "/meshes/" + std::to_string(m);
+      return tl::unexpected(mesh.error());
+    }
+    model.meshes.push_back(std::move(mesh).value());
+  }
+  return model;
+}
+
+Result<Model> decode(const ProgressiveStrips& strips) {
+  return decode(strips, strips.packets.size());
+}
+
+ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets) {
+  ProgressiveStrips out = strips;
+  if (packets >= strips.packets.size()) return out;
+  out.packets.resize(packets);
+  const std::vector<Index> vsplits = vsplits_after(out, packets);
+  std::vector<Packet> last = out.bases;
+  for (const Packet& p : out.packets) last[p.mesh] = p;
+  for (std::size_t m = 0; m < out.meshes.size(); ++m)
+    if (vsplits[m] < out.meshes[m].vsplits.size()) cut_mesh(out.meshes[m], vsplits[m], last[m]);
+  // The last level of a cut file is its own full resolution, but not the original's: its error
+  // stays what it is.
+  return out;
+}
+
+}  // namespace pstrip

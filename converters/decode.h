@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "codecs/vsplit/level.h"
+#include "core/progressive_strips.h"
+
+namespace pstrip {
+
+/// How far to refine; the first limit that is set decides.
+struct LevelChoice {
+  std::int64_t packets = -1;  ///< so many packets of the file, in file order
+  std::int64_t triangles =
+      -1;             ///< the most packets whose triangles, all meshes together, do not exceed this
+  double error = -1;  ///< the fewest packets after which no mesh's error exceeds this
+};
+
+/// How many packets a choice comes to; all of them when nothing is set. The base always counts, so
+/// 0 is the coarsest answer.
+std::size_t packets_for(const ProgressiveStrips& strips, const LevelChoice& choice);
+
+/// The model after `packets` packets of the file, with original order, polygons and face attributes
+/// where a mesh is fully refined and the file has them.
+///
+/// errors  corrupt when a full mesh shows other triangles than the file announced
+/// cost    O(decoded size); precondition as for Level
+Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets);
+Result<Model> decode(const ProgressiveStrips& strips);
+
+/// One mesh at a level, as decode() gives it.
+Result<Mesh> decoded_mesh(const Level& level);
+
+/// A shorter progressive file: the first `packets` packets, complete in itself. What belongs to the
+/// full resolution only (order, face table, digest) is left out of the meshes that are cut.
+ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets);
+
+}  // namespace pstrip

@@ -1,0 +1,284 @@
+#include "converters/encode.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <queue>
+
+#include "codecs/stripify/stripify.h"
+#include "codecs/triangulate/triangulate.h"
+#include "codecs/vsplit/faces.h"
+#include "codecs/vsplit/level.h"
+#include "codecs/vsplit/record.h"
+#include "converters/strip_mesh.h"
+#include "formats/pstrip/digest.h"
+
+namespace pstrip {
+namespace {
+
+// How much a difference of an attribute counts against a displacement, as a share of the
+// bounding-box diagonal a full swing of it costs. By eye on textured models; a swing is the range
+// of UVs and colours and the unit length of normals.
+double attribute_weight(std::string_view semantic) {
+  if (semantic == "NORMAL") return 0.02;
+  if (semantic.starts_with("TEXCOORD_")) return 0.3;
+  if (semantic.starts_with("COLOR_")) return 0.1;
+  return 0;
+}
+
+struct AttributeTable {
+  std::vector<float> values;
+  std::uint32_t count = 0;
+};
+
+AttributeTable attributes_for_simplify(const Mesh& mesh) {
+  struct Column {
+    const Attribute* attribute;
+    std::size_t component;
+    double scale;
+  };
+  std::vector<Column> columns;
+  for (const Attribute& a : mesh.wedge_attributes) {
+    const double weight = attribute_weight(a.semantic);
+    if (weight == 0) continue;
+    double low = 0, high = 0;  // over all components, so that UVs are not stretched
+    for (std::size_t w = 0; w < a.elements(); ++w)
+      for (std::size_t c = 0; c < a.count; ++c) {
+        const double v = component(a, w, c);
+        if (!std::isfinite(v)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+    const double range = a.semantic == "NORMAL" ? 1 : high - low;
+    if (!(range > 0)) continue;
+    for (std::size_t c = 0; c < a.count; ++c) columns.push_back({&a, c, weight / range});
+  }
+  AttributeTable out;
+  out.count = static_cast<std::uint32_t>(columns.size());
+  out.values.resize(std::size_t{out.count} * mesh.wedge_count());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t w = 0; w < mesh.wedge_count(); ++w) {
+      const double v = component(*columns[k].attribute, w, columns[k].component) * columns[k].scale;
+      out.values[w * out.count + k] = std::isfinite(v) ? static_cast<float>(v) : 0.f;
+    }
+  return out;
+}
+
+// Triangles with the group of each, as the simplifier takes them.
+CollapseSequence choose_collapses(const Mesh& mesh, const Triangulation& triangles,
+                                  std::uint64_t target_triangles, double max_error) {
+  const std::vector<double> positions = positions_as_double(mesh);
+  std::vector<Index> group;
+  if (!mesh.face_group.empty())
+    for (const Index f : triangles.face) group.push_back(mesh.group_of(f));
+  const AttributeTable attributes = attributes_for_simplify(mesh);
+  return simplify({.positions = positions,
+                   .wedge_vertex = mesh.wedge_vertex,
+                   .triangles = triangles.corners,
+                   .group = group,
+                   .attributes = attributes.values,
+                   .attribute_count = attributes.count},
+                  {.target_triangles = target_triangles, .max_error = max_error});
+}
+
+struct Encoded {
+  ProgressiveMesh mesh;
+  Packet base;
+  std::vector<Packet> packets;
+};
+
+Packet packet_at(const Recording& recording, Index mesh, Index first, Index vsplits) {
+  const LevelCounts& level = recording.levels[first + vsplits];
+  return {.mesh = mesh,
+          .first_vsplit = first,
+          .vsplits = vsplits,
+          .vertices = recording.mesh.base_vertices + first + vsplits,
+          .triangles = level.triangles,
+          .strips = level.strips,
+          .error = level.error};
+}
+
+// Cuts the vsplits into packets that grow with the mesh, so that each sharpens it by a like share.
+void pack(const Recording& recording, Index mesh, const EncodeOptions& options, Encoded& out) {
+  const Index all = static_cast<Index>(recording.mesh.vsplits.size());
+  out.base = packet_at(recording, mesh, 0, 0);
+  for (Index first = 0; first < all;) {
+    const double wanted = options.packet_growth * (recording.mesh.base_vertices + first);
+    Index size = std::max(options.packet_min, static_cast<Index>(wanted));
+    if (all - first < size + size / 2) size = all - first;  // no dwarf at the end
+    out.packets.push_back(packet_at(recording, mesh, first, size));
+    first += size;
+  }
+}
+
+class Encoder {
+ public:
+  Encoder(const Model& model, const EncodeOptions& options, const Progress& progress)
+      : model_(model), options_(options), progress_(progress) {}
+
+  Result<ProgressiveStrips> run(const std::vector<CollapseSequence>* given) {
+    stripifier_ = find_stripifier(options_.stripifier);
+    if (!stripifier_)
+      return fail(ErrorCode::bad_argument, "unknown stripifier " + options_.stripifier);
+    for (std::size_t m = 0; m < model_.meshes.size(); ++m) {
+      const std::string wrong = find_inconsistency(model_.meshes[m]);
+      if (!wrong.empty())
+        return fail(ErrorCode::bad_argument, "mesh " + std::to_string(m) + ": " + wrong);
+    }
+    choose_share();
+    std::vector<Encoded> encoded;
+    for (Index m = 0; m < model_.meshes.size(); ++m) {
+      auto mesh = encode_mesh(m, given ? &(*given)[m] : nullptr);
+      if (!mesh) return tl::unexpected(mesh.error());
+      encoded.push_back(std::move(mesh).value());
+    }
+    return join(std::move(encoded));
+  }
+
+ private:
+  // A total of triangles is shared out in proportion.
+  void choose_share() {
+    share_ = options_.base_share;
+    if (!options_.base_triangles) return;
+    std::uint64_t all = 0;
+    for (const Mesh& mesh : model_.meshes) all += triangulate(mesh).face.size();
+    share_ = all ? static_cast<double>(*options_.base_triangles) / static_cast<double>(all) : 0;
+  }
+
+  bool go_on(std::string_view stage, Index mesh, double done) const {
+    return !progress_ ||
+           progress_(stage, (mesh + done) / static_cast<double>(model_.meshes.size()));
+  }
+
+  Result<Encoded> encode_mesh(Index m, const CollapseSequence* given) const {
+    const Mesh& mesh = model_.meshes[m];
+    const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
+    if (!go_on("stripify", m, 0)) return interrupted();
+    const Triangulation triangles = triangulate(mesh);
+    const StripMap strips = strip_mesh(mesh, triangles, stripifier_->run);
+    if (strips.entries.size() > kMaxCount)
+      return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
+    if (!go_on("simplify", m, 0.25)) return interrupted();
+    CollapseSequence chosen;
+    if (!given) {
+      const bool by_error = options_.base_error.has_value();
+      const double target = share_ * static_cast<double>(triangles.face.size());
+      chosen = choose_collapses(mesh, triangles, by_error ? 0 : static_cast<std::uint64_t>(target),
+                                by_error ? *options_.base_error : -1);
+      given = &chosen;
+    }
+    if (!go_on("record", m, 0.75)) return interrupted();
+    Recording recording = record(mesh, strips, *given, options_.encoding);
+    FaceRecord faces = record_faces(mesh, triangles, strips, recording);
+    Encoded out;
+    pack(recording, m, options_, out);
+    out.mesh = std::move(recording.mesh);
+    out.mesh.faces = std::move(faces.faces);
+    add_digest(out.mesh);
+    if (options_.keep_order) out.mesh.order = std::move(faces.order);
+    return out;
+  }
+
+  // Of what a decoder gets before it applies the original order.
+  static void add_digest(ProgressiveMesh& mesh) {
+    Level level(mesh);
+    level.refine_fully();
+    const auto sum = digest(mesh_of(level).value());
+    mesh.digest.assign(sum.begin(), sum.end());
+  }
+
+  ProgressiveStrips join(std::vector<Encoded> encoded) const {
+    ProgressiveStrips out;
+    out.generator = "pstrips";
+    out.scene = model_.scene;
+    // The mesh whose error is largest gets the next packet.
+    struct Next {
+      float error;
+      Index mesh;
+      bool operator<(const Next& other) const {
+        return error != other.error ? error < other.error : mesh > other.mesh;
+      }
+    };
+    std::priority_queue<Next> queue;
+    std::vector<std::size_t> taken(encoded.size(), 0);
+    for (Index m = 0; m < encoded.size(); ++m) {
+      out.bases.push_back(encoded[m].base);
+      if (!encoded[m].packets.empty()) queue.push({encoded[m].base.error, m});
+      out.meshes.push_back(std::move(encoded[m].mesh));
+    }
+    while (!queue.empty()) {
+      const Index m = queue.top().mesh;
+      queue.pop();
+      out.packets.push_back(encoded[m].packets[taken[m]++]);
+      if (taken[m] < encoded[m].packets.size()) queue.push({out.packets.back().error, m});
+    }
+    return out;
+  }
+
+  const Model& model_;
+  const EncodeOptions& options_;
+  const Progress& progress_;
+  const NamedStripifier* stripifier_ = nullptr;
+  double share_ = 0;
+};
+
+}  // namespace
+
+Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
+                                 const Progress& progress) {
+  return Encoder(model, options, progress).run(nullptr);
+}
+
+Result<ProgressiveStrips> encode_with(const Model& model,
+                                      const std::vector<CollapseSequence>& collapses,
+                                      const EncodeOptions& options, const Progress& progress) {
+  if (collapses.size() != model.meshes.size())
+    return fail(ErrorCode::bad_argument, "not one collapse sequence a mesh");
+  return Encoder(model, options, progress).run(&collapses);
+}
+
+void keep_attributes(Model& model, const std::vector<std::string>& semantics) {
+  for (Mesh& mesh : model.meshes) {
+    std::erase_if(mesh.wedge_attributes, [&](const Attribute& a) {
+      return std::ranges::find(semantics, a.semantic) == semantics.end();
+    });
+    std::erase_if(mesh.face_attributes, [&](const Attribute& a) {
+      return std::ranges::find(semantics, a.semantic) == semantics.end();
+    });
+    // Equal wedges of a vertex become one, in order of first appearance.
+    std::map<std::pair<Index, Bytes>, Index> seen;
+    std::vector<Index> to(mesh.wedge_count()), kept;
+    for (Index w = 0; w < mesh.wedge_count(); ++w) {
+      Bytes key;
+      for (const Attribute& a : mesh.wedge_attributes) {
+        const ByteView element = a.element(w);
+        key.insert(key.end(), element.begin(), element.end());
+      }
+      const auto [at, is_new] =
+          seen.try_emplace({mesh.vertex_of(w), std::move(key)}, static_cast<Index>(kept.size()));
+      if (is_new) kept.push_back(w);
+      to[w] = at->second;
+    }
+    std::vector<Index> wedge_vertex(kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) wedge_vertex[i] = mesh.vertex_of(kept[i]);
+    for (Attribute& a : mesh.wedge_attributes) {
+      Bytes data;
+      data.reserve(kept.size() * a.element_bytes());
+      for (const Index w : kept) {
+        const ByteView element = a.element(w);
+        data.insert(data.end(), element.begin(), element.end());
+      }
+      a.data = std::move(data);
+    }
+    mesh.wedge_vertex = std::move(wedge_vertex);
+    for (Index& w : mesh.corners) w = to[w];
+    // Wedges of a vertex need not be in vertex order; with none but positions they can be.
+    if (mesh.wedge_attributes.empty()) {
+      for (Index& w : mesh.corners) w = mesh.wedge_vertex[w];
+      mesh.wedge_vertex.clear();
+    }
+    canonicalize(mesh);
+  }
+}
+
+}  // namespace pstrip

@@ -1,0 +1,244 @@
+#include "converters/files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "converters/merge.h"
+#include "converters/text_collapses.h"
+#include "formats/gltf/gltf.h"
+#include "formats/obj/obj.h"
+#include "formats/ply/ply.h"
+#include "formats/pstrip/binary.h"
+#include "formats/pstrip/text.h"
+#include "formats/pstrip/xml.h"
+
+namespace pstrip {
+namespace {
+
+constexpr std::array<std::string_view, 7> kNames = {"ply",    "obj",     "gltf", "glb",
+                                                    "pstrip", "pstripx", "pm"};
+
+// Companions are looked for in the folder of the model.
+auto companions_of(const std::string& path, const Limits& limits) {
+  return [folder = std::filesystem::path(path == "-" ? "." : path).parent_path(),
+          max = limits.memory_bytes](const std::string& name) -> Result<Bytes> {
+    auto file = read_file(folder / name, max);
+    if (!file) return tl::unexpected(file.error());
+    return Bytes(file->view().begin(), file->view().end());
+  };
+}
+
+template <class T>
+Result<LoadedFile> loaded(FileFormat format, Result<T> content) {
+  if (!content) return tl::unexpected(content.error());
+  return LoadedFile{
+      .format = format, .bytes = 0, .content = std::move(content).value(), .notes = {}};
+}
+
+Result<LoadedFile> load_text(ByteView bytes, const LoadOptions& options) {
+  auto text = read_text(bytes, options.limits);
+  if (!text) return tl::unexpected(text.error());
+  const bool moves_parents = !text->kept_position.empty();
+  std::vector<CollapseSequence> collapses{collapses_of(*text)};
+  Model model;
+  model.meshes.push_back(std::move(text->mesh));
+  auto file = loaded(FileFormat::pm, encode_with(model, collapses, options.text_options));
+  if (file && moves_parents) file->notes.push_back("where parents stand at coarse levels");
+  return file;
+}
+
+Result<LoadedFile> parse(FileFormat format, ByteView bytes, const std::string& path,
+                         const LoadOptions& options) {
+  const auto companions = companions_of(path, options.limits);
+  switch (format) {
+    case FileFormat::ply:
+      return loaded(format, read_ply(bytes, options.limits));
+    case FileFormat::obj:
+      return loaded(format, read_obj(bytes, companions, options.limits));
+    case FileFormat::gltf:
+    case FileFormat::glb: {
+      std::vector<std::string> notes;
+      auto file = loaded(format, read_gltf(bytes, companions, options.limits, &notes));
+      if (file) file->notes = std::move(notes);
+      return file;
+    }
+    case FileFormat::pstrip:
+      return loaded(format, read_binary(bytes, options.limits,
+                                        options.allow_prefix ? ReadMode::prefix : ReadMode::whole));
+    case FileFormat::pstripx:
+      return loaded(format, read_xml(bytes, options.limits));
+    case FileFormat::pm:
+      return load_text(bytes, options);
+  }
+  return fail(ErrorCode::bad_argument, "no such format");
+}
+
+std::string stem_of(const std::string& path) {
+  return path == "-" ? std::string("model") : std::filesystem::path(path).stem().string();
+}
+
+struct Pending {
+  std::string path;
+  Bytes bytes;
+};
+
+Result<SavedFiles> write(std::vector<Pending> files, std::vector<std::string> notes) {
+  SavedFiles out;
+  out.notes = std::move(notes);
+  std::vector<OutputFile> views;
+  for (const Pending& file : files) {
+    views.push_back({file.path, file.bytes});
+    out.paths.push_back(file.path);
+    out.bytes += file.bytes.size();
+  }
+  if (auto done = write_files(views); !done) return tl::unexpected(done.error());
+  return out;
+}
+
+std::string beside(const std::string& path, const std::string& name) {
+  return (std::filesystem::path(path).parent_path() / name).string();
+}
+
+Result<SavedFiles> save_ply(const Model& model, const std::string& path,
+                            const SaveOptions& options) {
+  std::vector<std::string> notes;
+  const bool several = model.meshes.size() > 1;
+  const Model one = several ? merge_meshes(model, notes) : Model{};
+  auto bytes = write_ply(several ? one : model,
+                         {.format = options.ascii ? PlyWriteOptions::Format::ascii
+                                                  : PlyWriteOptions::Format::little_endian});
+  if (!bytes) return tl::unexpected(bytes.error());
+  std::vector<Pending> files;
+  files.push_back({path, std::move(bytes).value()});
+  return write(std::move(files), std::move(notes));
+}
+
+Result<SavedFiles> save_obj(const Model& model, const std::string& path) {
+  auto written = write_obj(model, path == "-" ? std::string() : stem_of(path) + ".mtl");
+  if (!written) return tl::unexpected(written.error());
+  std::vector<Pending> files;
+  files.push_back({path, std::move(written->obj)});
+  if (!written->mtl.empty() && path != "-")
+    files.push_back({beside(path, written->mtl_name), std::move(written->mtl)});
+  return write(std::move(files), std::move(written->dropped));
+}
+
+Result<SavedFiles> save_gltf(const Model& model, const std::string& path, FileFormat format,
+                             const SaveOptions& options) {
+  auto written = write_gltf(
+      model, {.binary = format == FileFormat::glb,
+              .topology = options.strips ? GltfTopology::strips : GltfTopology::triangles,
+              .embed = path == "-",
+              .buffer_name = stem_of(path) + ".bin"});
+  if (!written) return tl::unexpected(written.error());
+  std::vector<Pending> files;
+  files.push_back({path, std::move(written->main)});
+  for (auto& [name, bytes] : written->others)
+    files.push_back({beside(path, name), std::move(bytes)});
+  return write(std::move(files), std::move(written->dropped));
+}
+
+}  // namespace
+
+std::string_view name_of(FileFormat format) { return kNames[static_cast<std::size_t>(format)]; }
+
+std::optional<FileFormat> format_named(std::string_view name) {
+  const auto at = std::ranges::find(kNames, name);
+  if (at == kNames.end()) return std::nullopt;
+  return static_cast<FileFormat>(at - kNames.begin());
+}
+
+std::optional<FileFormat> format_of_path(std::string_view path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (extension.empty()) return std::nullopt;
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return format_named(std::string_view(extension).substr(1));
+}
+
+std::optional<FileFormat> detect_format(ByteView bytes, std::string_view path) {
+  const std::string_view text = as_text(bytes);
+  const auto by_path = format_of_path(path);
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return FileFormat::ply;
+  if (text.starts_with("glTF")) return FileFormat::glb;
+  // Signatures cut short or mangled are still recognised by the name, so that the reader says what
+  // is wrong with them.
+  if (text.starts_with("\x8aPST")) return FileFormat::pstrip;
+  if (by_path) return by_path;
+  if (looks_like_xml(bytes)) return FileFormat::pstripx;
+  if (looks_like_text(bytes)) return FileFormat::pm;
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && text[first] == '{') return FileFormat::gltf;
+  // An OBJ is text whose lines begin with its keywords or comments.
+  if (first != text.npos && std::string_view("#vfgomus").find(text[first]) != text.npos &&
+      text.substr(0, 4096).find('\0') == text.npos)
+    return FileFormat::obj;
+  return std::nullopt;
+}
+
+Result<Model> LoadedFile::model(const LevelChoice& choice) && {
+  if (auto* model = std::get_if<Model>(&content)) return std::move(*model);
+  const auto& strips = std::get<ProgressiveStrips>(content);
+  return decode(strips, packets_for(strips, choice));
+}
+
+Result<LoadedFile> load(const FileBytes& file, const std::string& path,
+                        const LoadOptions& options) {
+  const auto format = detect_format(file.view(), path);
+  if (!format) return fail(ErrorCode::unsupported, "is none of the known formats", kNoOffset, path);
+  auto out = parse(*format, file.view(), path, options);
+  if (out) out->bytes = file.view().size();
+  return out;
+}
+
+Result<LoadedFile> load(const std::string& path, const LoadOptions& options) {
+  const auto file = read_file(path, options.limits.memory_bytes);
+  if (!file) return tl::unexpected(file.error());
+  return load(*file, path, options);
+}
+
+Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat format,
+                        const SaveOptions& options) {
+  switch (format) {
+    case FileFormat::ply:
+      return save_ply(model, path, options);
+    case FileFormat::obj:
+      return save_obj(model, path);
+    case FileFormat::gltf:
+    case FileFormat::glb:
+      return save_gltf(model, path, format, options);
+    default:
+      return fail(ErrorCode::bad_argument, "a progressive format needs encoding first");
+  }
+}
+
+Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path,
+                        FileFormat format) {
+  std::vector<Pending> files;
+  std::vector<std::string> notes;
+  switch (format) {
+    case FileFormat::pstrip: {
+      auto bytes = write_binary(strips);
+      if (!bytes) return tl::unexpected(bytes.error());
+      files.push_back({path, std::move(bytes).value()});
+      break;
+    }
+    case FileFormat::pstripx:
+      files.push_back({path, write_xml(strips)});
+      break;
+    case FileFormat::pm: {
+      auto text = write_text(strips);
+      if (!text) return tl::unexpected(text.error());
+      files.push_back({path, std::move(text->bytes)});
+      notes = std::move(text->dropped);
+      break;
+    }
+    default:
+      return fail(ErrorCode::bad_argument, "not a progressive format");
+  }
+  return write(std::move(files), std::move(notes));
+}
+
+}  // namespace pstrip

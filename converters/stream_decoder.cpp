@@ -1,0 +1,60 @@
+#include "converters/stream_decoder.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "converters/decode.h"
+
+namespace pstrip {
+
+StreamDecoder::StreamDecoder(const Limits& limits, std::string_view filter) : parser_(limits) {
+  const NamedFilter* named = find_display_filter(filter);
+  assert(named);
+  filter_ = named->append;
+}
+
+Result<void> StreamDecoder::feed(ByteView bytes) {
+  const Result<void> fed = parser_.feed(bytes);
+  const ProgressiveStrips& strips = parser_.strips();
+  if (!parser_.has_base()) return fed;
+  if (levels_.empty()) {
+    for (const ProgressiveMesh& mesh : strips.meshes) levels_.emplace_back(mesh, filter_);
+    now_ = strips.bases;
+  }
+  for (; packets_ < strips.packets.size(); ++packets_) {
+    const Packet& packet = strips.packets[packets_];
+    levels_[packet.mesh].refine(packet.vsplits);
+    now_[packet.mesh] = packet;
+  }
+  return fed;
+}
+
+StreamDecoder::Totals StreamDecoder::totals() const {
+  Totals out;
+  for (const Packet& p : now_) {
+    out.vertices += p.vertices;
+    out.triangles += p.triangles;
+    out.strips += p.strips;
+    out.error = std::max(out.error, p.error);
+  }
+  return out;
+}
+
+bool StreamDecoder::update() {
+  std::size_t filtered = 0;
+  for (DisplayLevel& level : levels_) filtered += level.update();
+  return filtered > 0;
+}
+
+Result<Model> StreamDecoder::model() const {
+  Model out;
+  out.scene = parser_.strips().scene;
+  for (const DisplayLevel& shown : levels_) {
+    Result<Mesh> mesh = decoded_mesh(shown.level());
+    if (!mesh) return tl::unexpected(mesh.error());
+    out.meshes.push_back(std::move(mesh).value());
+  }
+  return out;
+}
+
+}  // namespace pstrip

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <deque>
+#include <string_view>
+#include <vector>
+
+#include "codecs/filter/display_level.h"
+#include "core/limits.h"
+#include "core/scene.h"
+#include "formats/pstrip/binary.h"
+
+namespace pstrip {
+
+/// Decodes a binary progressive file while it arrives: feed bytes, show the level reached.
+///
+///     StreamDecoder decoder;
+///     while (more) { decoder.feed(bytes); if (decoder.update()) draw(decoder); }
+///
+/// Each call costs what it brings: a packet's vsplits, and the filtering of the strips that they
+/// rewrote. Any prefix of a valid file is shown up to its last whole packet. [spec/container.md §9]
+class StreamDecoder {
+ public:
+  explicit StreamDecoder(const Limits& limits = {}, std::string_view filter = "dtfs");
+  StreamDecoder(const StreamDecoder&) = delete;
+  StreamDecoder& operator=(const StreamDecoder&) = delete;
+
+  /// Takes the next bytes and applies every packet that they complete.
+  ///
+  /// errors  as BinaryParser; the first one stays, and what was reached before it can be shown
+  Result<void> feed(ByteView bytes);
+
+  bool has_base() const { return parser_.has_base(); }  ///< level 0 can be shown
+  bool complete() const { return parser_.complete(); }  ///< the whole file is there
+  /// What to answer when no more bytes come: truncated, or nothing when complete.
+  std::optional<Error> end() const { return parser_.end(); }
+  std::size_t packets() const { return packets_; }  ///< applied so far, of header()->packets
+  const std::optional<FileHeader>& header() const { return parser_.header(); }
+  std::uint64_t bytes_taken() const { return parser_.bytes_taken(); }
+  const ProgressiveStrips& strips() const { return parser_.strips(); }
+
+  /// What the level shows now, all meshes together.
+  struct Totals {
+    std::uint64_t vertices = 0, triangles = 0, strips = 0;
+    float error = 0;  ///< the largest of any mesh
+  };
+  Totals totals() const;
+
+  /// Filters the strips rewritten since the last call; false when there were none.
+  bool update();
+  /// The level of a mesh and its display strips as of the last update().
+  /// Precondition: has_base().
+  const DisplayLevel& mesh(Index i) const { return levels_[i]; }
+
+  /// The meshes as they are now. Precondition: has_base().
+  /// errors  as decode()
+  Result<Model> model() const;
+
+ private:
+  BinaryParser parser_;
+  AppendFilter filter_;
+  std::deque<DisplayLevel> levels_;  // they do not move
+  std::vector<Packet> now_;          // last packet, or base, of each mesh
+  std::size_t packets_ = 0;
+};
+
+}  // namespace pstrip

@@ -1,0 +1,164 @@
+// Every real model there is: convert, validate, convert back, compare. Models that cannot be read
+// must say so with a code. Without the folder of models the generated ones still run.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "converters/compare.h"
+#include "converters/decode.h"
+#include "converters/encode.h"
+#include "converters/files.h"
+#include "formats/pstrip/binary.h"
+#include "formats/pstrip/xml.h"
+#include "tests/support/meshes.h"
+#include "tests/support/paths.h"
+#include "validators/validate.h"
+
+namespace pstrip {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Variant {
+  MapEncoding encoding;
+  bool xml;
+  bool keep_order;
+};
+
+// Together they have both values of each; all eight run on small models.
+const Variant kTwo[] = {{MapEncoding::offset_difference, false, true},
+                        {MapEncoding::naive, true, false}};
+const Variant kAll[] = {{MapEncoding::naive, false, false},
+                        {MapEncoding::naive, false, true},
+                        {MapEncoding::naive, true, false},
+                        {MapEncoding::naive, true, true},
+                        {MapEncoding::offset_difference, false, false},
+                        {MapEncoding::offset_difference, false, true},
+                        {MapEncoding::offset_difference, true, false},
+                        {MapEncoding::offset_difference, true, true}};
+constexpr std::uint64_t kLargeCorners = 20'000;
+
+std::uint64_t corners_of(const Model& model) {
+  std::uint64_t sum = 0;
+  for (const Mesh& m : model.meshes) sum += m.corners.size();
+  return sum;
+}
+
+// Empty when the model comes back as it should.
+std::string round_trip(const Model& model, const Variant& variant) {
+  EncodeOptions options;
+  options.encoding = variant.encoding;
+  options.keep_order = variant.keep_order;
+  auto strips = encode(model, options);
+  if (!strips) return "encode: " + strips.error().message;
+  Bytes file;
+  if (variant.xml) {
+    file = write_xml(*strips);
+  } else {
+    auto bytes = write_binary(*strips);
+    if (!bytes) return "write: " + bytes.error().message;
+    file = std::move(bytes).value();
+  }
+  const Report report = validate(file);
+  if (report.errors() > 0)
+    return "validate: " + std::string(report.findings()[0].code) + " " +
+           report.findings()[0].message + " at " + report.findings()[0].path;
+  const auto read = variant.xml ? read_xml(file) : read_binary(file);
+  if (!read) return "read: " + read.error().message + " at " + read.error().path;
+  if (*read != *strips) return "the file read is not the file written";
+  const Model back = decode(*read).value();
+  if (back.scene != model.scene) return "the scene changed";
+  if (variant.keep_order) return back.meshes == model.meshes ? "" : "not exact with --keep-order";
+  const Comparison c = compare(model, back, 1000);
+  if (c.likeness == Likeness::different)
+    return "different: " + (c.differences.empty() ? std::string() : c.differences[0]);
+  return {};
+}
+
+// The way back into the format it came from.
+std::string save_again(const LoadedFile& file, const Model& model, const fs::path& folder) {
+  const std::string path = (folder / ("again." + std::string(name_of(file.format)))).string();
+  const auto saved = save(model, path, file.format);
+  if (!saved) return "save: " + saved.error().message;
+  auto again = load(path);
+  if (!again) return "load what was saved: " + again.error().message + " " + again.error().path;
+  const Model back = std::move(*again).model().value();
+  const Comparison c = compare(model, back, 1000);
+  if (c.likeness != Likeness::different) return {};
+  return "saved model is different: " + (c.differences.empty() ? std::string() : c.differences[0]);
+}
+
+class Models : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "pstrips-models-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_;
+};
+
+TEST_F(Models, GeneratedOnesComeBack) {
+  for (const Mesh& mesh : {test::grid(12), test::torus(9, 7), test::cube(true), test::cube(false),
+                           test::random_soup(1, 40, 90), test::random_soup(2, 5, 60)}) {
+    Model model;
+    model.meshes.push_back(mesh);
+    for (const Variant& variant : kAll) EXPECT_EQ(round_trip(model, variant), "");
+  }
+}
+
+TEST_F(Models, RealOnesComeBack) {
+  std::vector<fs::path> paths;
+  if (const auto dir = test::models_dir())
+    for (const auto& entry : fs::recursive_directory_iterator(*dir)) {
+      static const std::vector<std::string> kEndings = {".ply", ".obj", ".gltf", ".glb", ".pm"};
+      std::string ending = entry.path().extension().string();
+      std::ranges::transform(ending, ending.begin(),
+                             [](unsigned char c) { return std::tolower(c); });
+      if (entry.is_regular_file() && std::ranges::find(kEndings, ending) != kEndings.end())
+        paths.push_back(entry.path());
+    }
+  else if (const fs::path bunny = "/usr/share/glmark2/models/bunny.obj"; fs::exists(bunny))
+    paths.push_back(bunny);
+  if (paths.empty()) GTEST_SKIP() << "neither a folder of models nor glmark2-data is there";
+  std::ranges::sort(paths);
+
+  std::map<std::string, int> refused;
+  int readable = 0;
+  for (const fs::path& path : paths) {
+    SCOPED_TRACE(path.string());
+    auto file = load(path.string());
+    if (!file) {
+      static constexpr const char* kCodes[] = {
+          "bad_argument", "io", "truncated", "corrupt", "over_limit", "unsupported", "interrupted"};
+      ++refused[kCodes[static_cast<std::size_t>(file.error().code)]];
+      EXPECT_NE(file.error().code, ErrorCode::bad_argument);
+      EXPECT_FALSE(file.error().message.empty());
+      continue;
+    }
+    ++readable;
+    const LoadedFile info{file->format, file->bytes, Model{}, {}};
+    const Model model = std::move(*file).model().value();
+    const bool large = corners_of(model) > kLargeCorners;
+    for (const Variant& variant :
+         large ? std::span<const Variant>(kTwo) : std::span<const Variant>(kAll))
+      EXPECT_EQ(round_trip(model, variant), "")
+          << "naive " << (variant.encoding == MapEncoding::naive) << " xml " << variant.xml
+          << " order " << variant.keep_order;
+    if (info.format != FileFormat::pm) {
+      EXPECT_EQ(save_again(info, model, folder_), "");
+    }
+  }
+  std::cout << readable << " models read";
+  for (const auto& [code, n] : refused) std::cout << ", " << n << " " << code;
+  std::cout << "\n";
+}
+
+}  // namespace
+}  // namespace pstrip

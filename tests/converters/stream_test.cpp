@@ -1,0 +1,178 @@
+// Files that arrive in pieces or end early.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+#include <set>
+
+#include "converters/decode.h"
+#include "converters/encode.h"
+#include "converters/files.h"
+#include "converters/stream_decoder.h"
+#include "formats/pstrip/chunks.h"
+#include "tests/support/meshes.h"
+#include "tests/support/paths.h"
+
+namespace pstrip {
+namespace {
+
+struct Sample {
+  ProgressiveStrips strips;
+  Bytes file;
+  std::vector<std::uint64_t> ends;  // of the last base, then of each packet
+};
+
+Sample sample(Model model, const EncodeOptions& options) {
+  Sample out;
+  out.strips = encode(model, options).value();
+  out.file = write_binary(out.strips).value();
+  std::uint64_t base_end = 0;
+  for (const Chunk& chunk : read_chunks(out.file).chunks) {
+    if (chunk.type == kBaseChunk) base_end = chunk.offset + chunk.bytes();
+    if (chunk.type == kPacketChunk) out.ends.push_back(chunk.offset + chunk.bytes());
+  }
+  out.ends.insert(out.ends.begin(), base_end);
+  return out;
+}
+
+Sample small_sample() {
+  Model model;
+  model.meshes = {test::grid(8), test::cube(true)};
+  return sample(std::move(model), {.keep_order = true, .packet_min = 8});
+}
+
+std::multiset<std::array<Index, 3>> triangles(std::span<const Index> map, const Level& level) {
+  std::multiset<std::array<Index, 3>> out;
+  for_each_triangle(
+      map, [&](Index w) { return level.vertex_of(w); },
+      [&](Index a, Index b, Index c) {
+        std::array t{a, b, c};
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        out.insert(t);
+      });
+  return out;
+}
+
+// How many packets a file of `size` bytes shows; -1 before the base.
+int level_at(const Sample& s, std::size_t size) {
+  int level = -1;
+  for (const std::uint64_t end : s.ends)
+    if (end <= size) ++level;
+  return level;
+}
+
+void expect_last_whole_packet(const Sample& s, std::size_t size) {
+  SCOPED_TRACE(size);
+  const Bytes cut(s.file.begin(), s.file.begin() + static_cast<std::ptrdiff_t>(size));
+  const auto read = read_binary(cut, {}, ReadMode::prefix);
+  const int level = level_at(s, size);
+  if (level < 0) {
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::truncated);
+    return;
+  }
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->complete, size == s.file.size());
+  ASSERT_EQ(read->packets.size(), static_cast<std::size_t>(level));
+  const Model shown = decode(*read).value();
+  const Model expected = decode(s.strips, static_cast<std::size_t>(level)).value();
+  for (std::size_t m = 0; m < shown.meshes.size(); ++m) {
+    // The original order arrives behind the last packet.
+    EXPECT_EQ(shown.meshes[m].corners.size(), expected.meshes[m].corners.size());
+    if (expected.meshes[m].vertex_count() < s.strips.meshes[m].vertices) {
+      EXPECT_EQ(shown.meshes[m], expected.meshes[m]);
+    }
+  }
+}
+
+TEST(Prefix, OfEveryLengthShowsTheLastWholePacket) {
+  const Sample s = small_sample();
+  for (std::size_t size = 0; size <= s.file.size(); ++size) expect_last_whole_packet(s, size);
+}
+
+TEST(Prefix, OfRandomLengthsOfALargeFileToo) {
+  const std::string bunny = "/usr/share/glmark2/models/bunny.obj";
+  auto file = load(bunny);
+  if (!file) GTEST_SKIP() << "glmark2-data is not installed";
+  const Sample s = sample(std::move(*file).model().value(), {});
+  std::mt19937_64 random(7);
+  std::size_t levels = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::size_t size = random() % s.file.size();
+    const auto read = read_binary(ByteView(s.file).first(size), {}, ReadMode::prefix);
+    const int level = level_at(s, size);
+    ASSERT_EQ(read.has_value(), level >= 0) << size;
+    if (!read) continue;
+    ASSERT_EQ(read->packets.size(), static_cast<std::size_t>(level)) << size;
+    if (i % 20 == 0) {
+      ASSERT_EQ(decode(*read)->meshes, decode(s.strips, read->packets.size())->meshes);
+    }
+    ++levels;
+  }
+  EXPECT_GT(levels, 100u);
+}
+
+TEST(StreamDecoder, ShowsTheSameWhateverThePieces) {
+  const Sample s = small_sample();
+  for (const std::size_t piece :
+       {std::size_t{1}, std::size_t{7}, std::size_t{1000}, s.file.size()}) {
+    StreamDecoder decoder;
+    std::size_t shown = 0;
+    for (std::size_t at = 0; at < s.file.size(); at += piece) {
+      ASSERT_TRUE(decoder.feed(ByteView(s.file).subspan(at, std::min(piece, s.file.size() - at))));
+      const int level = level_at(s, std::min(at + piece, s.file.size()));
+      ASSERT_EQ(decoder.has_base(), level >= 0);
+      if (level < 0) continue;
+      ASSERT_EQ(decoder.packets(), static_cast<std::size_t>(level));
+      if (shown == decoder.packets() && shown > 0) continue;
+      shown = decoder.packets();
+      decoder.update();
+      std::uint64_t total = 0;
+      for (Index m = 0; m < 2; ++m) {
+        const Level& now = decoder.mesh(m).level();
+        DisplayStrips display;
+        decoder.mesh(m).append_display(display);
+        const auto in_display = triangles(display, now);
+        ASSERT_EQ(in_display, triangles(now.resolved(), now));
+        ASSERT_EQ(decoder.mesh(m).cost().vertices_sent + decoder.mesh(m).cost().restarts,
+                  display.size());
+        total += in_display.size();
+      }
+      ASSERT_EQ(decoder.totals().triangles, total);
+    }
+    EXPECT_TRUE(decoder.complete());
+    EXPECT_FALSE(decoder.end());
+    EXPECT_EQ(decoder.model()->meshes, decode(s.strips)->meshes);
+  }
+}
+
+TEST(StreamDecoder, FiltersOnlyWhatAPacketRewrote) {
+  Model model;
+  model.meshes = {test::grid(60)};
+  const Sample s = sample(std::move(model), {.packet_min = 4});
+  DisplayLevel level(s.strips.meshes[0], append_degenerate_free_scan);
+  level.refine(4);
+  const std::size_t filtered = level.update();
+  EXPECT_GT(filtered, 0u);
+  EXPECT_LT(filtered, strip_ranges(level.level().resolved()).size());
+  EXPECT_EQ(level.update(), 0u);
+}
+
+TEST(StreamDecoder, KeepsWhatItHasWhenTheRestIsBroken) {
+  Model model;
+  model.meshes = {test::grid(9)};
+  const Sample s = sample(std::move(model), {.packet_min = 8});
+  Bytes broken = s.file;
+  broken[s.ends[2] - 9] ^= std::byte{1};  // inside the second packet
+  StreamDecoder decoder;
+  const auto fed = decoder.feed(broken);
+  ASSERT_FALSE(fed);
+  EXPECT_EQ(fed.error().code, ErrorCode::corrupt);
+  EXPECT_EQ(decoder.packets(), 1u);
+  EXPECT_EQ(decoder.model()->meshes, decode(s.strips, 1)->meshes);
+}
+
+}  // namespace
+}  // namespace pstrip
