@@ -190,7 +190,8 @@ class ModelWriter {
 
   /// Whether all values of an element that is not ours are there and still mean something.
   bool is_whole(const Element& element) const {
-    if (element.name == "tristrips") return false;  // a reader would add them to the faces
+    // A reader would add them to the faces.
+    if (element.name == "tristrips" && mesh_ != nullptr) return false;
     if (element.name == "edge" && mesh_ != nullptr && element.count != 0 && !bound_) return false;
     return std::ranges::all_of(element.properties, [&](const Property& property) {
       return property.kept != Property::kNotKept &&
@@ -380,6 +381,7 @@ class ModelWriter {
     auto& properties = face().properties;
     auto at = properties.begin() + (place - layout.places.begin());
     if (at == properties.end()) {
+      if (mesh_->face_count() == 0) return;
       at = properties.insert(properties.begin(), list_property("vertex_indices", ComponentType::u8,
                                                                ComponentType::i32));
     }

@@ -34,6 +34,8 @@ const std::string kTriangleMeaning = "POSITION f32x3 0,0,0 1,0,0 0,1,0";
 
 const GoodFile kGoodFiles[] = {
     {"no_vertices", vertices(0) + "end_header\n", "POSITION f32x3"},
+    {"faces_without_properties", vertices(1) + "element face 0\nend_header\n1 2 3\n",
+     "POSITION f32x3 1,2,3"},
     {"triangle", vertices(3) + faces(1) + "end_header\n" + kTriangle + "3 0 1 2\n",
      kTriangleMeaning + " | F 0,1,2"},
     {"no_final_newline", vertices(1) + "end_header\n1 2 3", "POSITION f32x3 1,2,3"},
@@ -240,8 +242,9 @@ TEST(ReadPly, NamesTexturesAndMaterials) {
 }
 
 TEST(ReadPly, WithoutVerticesIsAModelWithoutMesh) {
-  const auto model = read_ply(as_bytes(
-      ascii("obj_info nothing\nelement face 0\nelement other 1\nproperty int a\nend_header\n5\n")));
+  const auto model =
+      read_ply(as_bytes(ascii("obj_info nothing\nelement face 0\nelement tristrips 0\nproperty "
+                              "float x\nelement other 1\nproperty int a\nend_header\n5\n")));
   ASSERT_TRUE(model);
   EXPECT_TRUE(model->meshes.empty());
   EXPECT_EQ(test::round_trip_failure(*model), "");
