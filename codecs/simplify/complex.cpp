@@ -107,17 +107,21 @@ void Complex::gather(Index vertex, Star& star) {
 
 void Complex::append(Index vertex, std::span<const Index> corners) {
   VertexRecord& record = vertices[vertex];
-  const Index live = static_cast<Index>(ring(vertex).size());
-  const Index size = live + static_cast<Index>(corners.size());
+  Index size = record.ring_size + static_cast<Index>(corners.size());
   if (size > record.ring_capacity) {
-    const Index capacity = size + size / 2;
-    const Index first = static_cast<Index>(pool_.size());
-    pool_.resize(pool_.size() + capacity);
-    std::copy_n(pool_.begin() + record.ring, live, pool_.begin() + first);
-    record.ring = first;
-    record.ring_capacity = capacity;
+    const Index live = static_cast<Index>(ring(vertex).size());
+    size = live + static_cast<Index>(corners.size());
+    // Room for a third more, or the dead would be looked for too often.
+    if (size + size / 3 > record.ring_capacity) {
+      const Index capacity = size + size / 2;
+      const Index first = static_cast<Index>(pool_.size());
+      pool_.resize(pool_.size() + capacity);
+      std::copy_n(pool_.begin() + record.ring, live, pool_.begin() + first);
+      record.ring = first;
+      record.ring_capacity = capacity;
+    }
   }
-  std::ranges::copy(corners, pool_.begin() + record.ring + live);
+  std::ranges::copy(corners, pool_.begin() + record.ring + record.ring_size);
   record.ring_size = size;
 }
 

@@ -7,6 +7,7 @@
 #include "codecs/simplify/simplify.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -41,6 +42,13 @@ constexpr Index kLargeRing = 64;
 constexpr int kMostGuardChecks = 16;  // of one such vertex in a row
 
 constexpr std::size_t kProgressInterval = 4096;
+
+// The error of a vertex as it counts in the order. That of a large ring moves in powers of two, or
+// each collapse onto it would change the order of all its neighbours.
+float settled_error(const VertexRecord& record) {
+  if (record.ring_size <= kLargeRing) return record.error;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(record.error) & 0xff80'0000u);
+}
 
 enum Guard : std::uint8_t { kPasses, kBorder, kLink, kFlip };
 
@@ -187,27 +195,31 @@ void Simplifier::price(Index q, StarEdge& edge) {
   edge.cost = kLengthShare * quadrics_[q].weight * dot(offset, offset);
   if (wedges_) price_wedges(edge, offset);
   edge.error = std::max(edge.error, 0.f);
-  edge.cost += edge.error + kKeptShare * to.error;
+  edge.cost += edge.error + kKeptShare * settled_error(to);
   const float limit = most_error_ * (quadrics_[q].weight + quadrics_[edge.vertex].weight);
   if (!(edge.cost < kInfinity) || edge.error + to.error > limit) edge.cost = kInfinity;
 }
 
 void Simplifier::price_wedges(StarEdge& edge, Vec3f offset) {
-  wedges_->new_epoch();
-  float mapped = 0;
-  for (Index i = edge.first; i != kNone; i = star_.spokes[i / 2].more[i % 2]) {
-    const Index corner = star_.spokes[i / 2].corner;
-    const Index wedge = wedges_->corner_wedge[corner];
-    const Index to =
-        wedges_->corner_wedge[i % 2 == 0 ? Complex::next(corner) : Complex::previous(corner)];
-    if (!wedges_->is_marked(wedge)) {
-      wedges_->mark(wedge, to);
-      mapped += wedges_->weight(wedge);
-      edge.error += wedges_->cost(wedge, to, offset);
-    } else if (wedges_->other(wedge) != to) {
-      edge.cost += wedges_->conflict(wedge, wedges_->other(wedge), to);
+  const auto for_each_triangle = [&](auto&& visit) {
+    for (Index i = edge.first; i != kNone; i = star_.spokes[i / 2].more[i % 2]) {
+      const Index corner = star_.spokes[i / 2].corner;
+      visit(corner, i % 2 == 0 ? Complex::next(corner) : Complex::previous(corner));
     }
-  }
+  };
+  wedges_->new_epoch();
+  for_each_triangle([&](Index from, Index to) { wedges_->mark_first(from, to); });
+  float mapped = 0;
+  for_each_triangle([&](Index from, Index to) {
+    const Index wedge = wedges_->corner_wedge[from], first = wedges_->other(wedge);
+    if (first == to) {
+      mapped += wedges_->weight(wedge);
+      edge.error += wedges_->cost(wedge, wedges_->corner_wedge[to], offset);
+    } else if (wedges_->corner_wedge[first] != wedges_->corner_wedge[to]) {
+      edge.cost +=
+          wedges_->conflict(wedge, wedges_->corner_wedge[first], wedges_->corner_wedge[to]);
+    }
+  });
   edge.cost += kCarriedShare * std::max(0.f, live_weight_ - mapped) * dot(offset, offset);
 }
 
@@ -216,7 +228,8 @@ float Simplifier::plain_cost(Index q, Index p) const {
   const VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[p];
   const Vec3f offset = complex_.offset(q, p);
   const float length = kLengthShare * quadrics_[q].weight * dot(offset, offset);
-  return std::max(from.error + quadrics_[q].at(offset), 0.f) + length + kKeptShare * to.error;
+  return std::max(from.error + quadrics_[q].at(offset), 0.f) + length +
+         kKeptShare * settled_error(to);
 }
 
 // The edge to collapse now that q is on top of the heap, all others having a key of at least

@@ -84,18 +84,18 @@ void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, 
   for (const Spoke& spoke : star.spokes) {
     if (spoke.next != kept && spoke.previous != kept) continue;
     const Index corner = spoke.corner;
-    const Index wedge = corner_wedge[corner];
-    const Index to =
-        corner_wedge[spoke.next == kept ? Complex::next(corner) : Complex::previous(corner)];
-    if (is_marked(wedge)) continue;
-    mark(wedge, to);
-    if (any == kNone) any = to;
+    mark_first(corner, spoke.next == kept ? Complex::next(corner) : Complex::previous(corner));
   }
   for (const Spoke& spoke : star.spokes) {
-    if (complex.is_dead(spoke.corner)) continue;
-    Index& wedge = corner_wedge[spoke.corner];
-    if (!is_marked(wedge)) mark(wedge, kNone);
-    if (other(wedge) != kNone) wedge = other(wedge);
+    const Index corner = spoke.corner;
+    const Index wedge = corner_wedge[corner];
+    if (complex.is_dead(corner)) {
+      any = std::min(any, corner_wedge[other(wedge)]);
+    } else if (!is_marked(wedge)) {
+      mark(wedge, kNone);
+    } else if (other(wedge) != kNone) {
+      corner_wedge[corner] = corner_wedge[other(wedge)];
+    }
   }
   Index last_carried = kNone;
   for (Index wedge = first_[star.vertex], after; wedge != kNone; wedge = after) {
@@ -104,7 +104,7 @@ void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, 
       moves.push_back({wedge, any});
       continue;
     }
-    const Index to = other(wedge);
+    const Index to = other(wedge) == kNone ? kNone : corner_wedge[other(wedge)];
     moves.push_back({wedge, to});
     if (to != kNone) {
       replace(wedge, to, offset, quadric);

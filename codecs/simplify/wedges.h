@@ -53,9 +53,15 @@ class WedgeTable {
   /// Draws a new mark for `is_marked` and `mark`.
   void new_epoch() { ++epoch_; }
   bool is_marked(Index wedge) const { return mark_[wedge] == epoch_; }
-  /// Marks a wedge and remembers which other one goes with it.
-  void mark(Index wedge, Index other) { mark_[wedge] = epoch_, other_[wedge] = other; }
+  /// Marks a wedge and remembers a corner for it.
+  void mark(Index wedge, Index corner) { mark_[wedge] = epoch_, other_[wedge] = corner; }
   Index other(Index wedge) const { return other_[wedge]; }
+  /// Marks the wedge of a corner with another corner of its triangle, unless an earlier triangle
+  /// has done so.
+  void mark_first(Index corner, Index other_corner) {
+    const Index wedge = corner_wedge[corner];
+    if (!is_marked(wedge) || other_corner < other(wedge)) mark(wedge, other_corner);
+  }
 
  private:
   struct Term {

@@ -1,0 +1,525 @@
+#include "codecs/simplify/simplify.h"
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "codecs/measure/measure.h"
+#include "codecs/triangulate/triangulate.h"
+#include "tests/support/meshes.h"
+#include "tests/support/models.h"
+
+namespace pstrip {
+namespace {
+
+// A simplifier's input that owns its arrays.
+struct Source {
+  std::vector<double> positions = {};
+  std::vector<Index> wedge_vertex = {};
+  std::vector<Index> triangles = {};
+  std::vector<Index> group = {};
+  std::vector<float> attributes = {};
+  std::uint32_t attribute_count = 0;
+
+  SimplifyInput input() const {
+    return {positions, wedge_vertex, triangles, group, attributes, attribute_count};
+  }
+  Index vertex_of(Index wedge) const { return wedge_vertex.empty() ? wedge : wedge_vertex[wedge]; }
+  Index vertex_count() const { return static_cast<Index>(positions.size() / 3); }
+  std::uint64_t triangle_count() const { return triangles.size() / 3; }
+  std::array<double, 3> position(Index v) const {
+    return {positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+  }
+};
+
+Source source_of(const Mesh& mesh) {
+  Triangulation t = triangulate(mesh);
+  Source source{positions_as_double(mesh), mesh.wedge_vertex, std::move(t.corners), {}, {}, 0};
+  for (const Index face : t.face) source.group.push_back(mesh.group_of(face));
+  for (const Attribute& a : mesh.wedge_attributes) source.attribute_count += a.count;
+  for (Index w = 0; w < mesh.wedge_count(); ++w)
+    for (const Attribute& a : mesh.wedge_attributes)
+      for (std::size_t c = 0; c < a.count; ++c)
+        source.attributes.push_back(static_cast<float>(component(a, w, c)));
+  return source;
+}
+
+CollapseSequence run(const Source& source, const SimplifyOptions& options = {}) {
+  return simplify(source.input(), options);
+}
+
+// Performs a sequence on a plain list of triangles, checking each step by the letter of the header.
+// Afterwards `triangles` are those left, as wedges.
+class Replay {
+ public:
+  explicit Replay(const Source& source) : source_(source), triangles_(source.triangles) {
+    for (Index w = 0; w < wedge_count(); ++w) {
+      stands_at_.push_back(source.vertex_of(w));
+      standing_[source.vertex_of(w)].insert(w);
+    }
+    removed_.resize(source.vertex_count());
+  }
+
+  void perform(const CollapseSequence& sequence) {
+    const WedgeMove* move = sequence.moves.data();
+    float error = 0;
+    for (const Collapse& c : sequence.collapses) {
+      ASSERT_LT(c.removed, source_.vertex_count());
+      ASSERT_LT(c.kept, source_.vertex_count());
+      ASSERT_NE(c.removed, c.kept);
+      ASSERT_FALSE(removed_[c.removed]);
+      ASSERT_FALSE(removed_[c.kept]);
+      ASSERT_GE(c.error, error);
+      error = c.error;
+      ASSERT_LE(c.moves, sequence.moves.data() + sequence.moves.size() - move);
+      collapse(c, {move, c.moves});
+      if (testing::Test::HasFatalFailure()) return;
+      move += c.moves;
+    }
+    EXPECT_EQ(move, sequence.moves.data() + sequence.moves.size());
+    EXPECT_EQ(triangles_.size() / 3, sequence.triangles_left);
+  }
+
+  std::vector<Index> triangles() const { return triangles_; }
+  std::vector<Index> vertex_triangles() const {
+    std::vector<Index> out;
+    for (const Index w : triangles_) out.push_back(stands_at_[w]);
+    return out;
+  }
+  bool is_removed(Index vertex) const { return removed_[vertex]; }
+
+ private:
+  Index wedge_count() const {
+    return source_.wedge_vertex.empty() ? source_.vertex_count()
+                                        : static_cast<Index>(source_.wedge_vertex.size());
+  }
+
+  void collapse(const Collapse& c, std::span<const WedgeMove> moves) {
+    std::map<Index, Index> to;
+    for (const WedgeMove& m : moves) {
+      ASSERT_EQ(stands_at_[m.from], c.removed);
+      if (m.to != kNone) {
+        ASSERT_EQ(stands_at_[m.to], c.kept);
+      }
+      ASSERT_TRUE(to.emplace(m.from, m.to).second) << "moved twice";
+    }
+    ASSERT_EQ(to.size(), standing_[c.removed].size()) << "not every wedge is moved";
+
+    // The first removed triangle that uses a wedge decides.
+    std::map<Index, Index> expected;
+    std::set<Index> used;
+    std::vector<Index> left;
+    for (std::size_t t = 0; t < triangles_.size(); t += 3) {
+      Index at_removed = kNone, at_kept = kNone;
+      for (std::size_t k = t; k < t + 3; ++k) {
+        if (stands_at_[triangles_[k]] == c.removed) at_removed = triangles_[k];
+        if (stands_at_[triangles_[k]] == c.kept) at_kept = triangles_[k];
+      }
+      if (at_removed != kNone) used.insert(at_removed);
+      if (at_removed != kNone && at_kept != kNone)
+        expected.emplace(at_removed, at_kept);
+      else
+        left.insert(left.end(), triangles_.begin() + static_cast<std::ptrdiff_t>(t),
+                    triangles_.begin() + static_cast<std::ptrdiff_t>(t) + 3);
+    }
+    ASSERT_FALSE(expected.empty()) << "collapses an edge of no triangle";
+    for (const auto& [from, target] : to) {
+      if (expected.contains(from)) {
+        ASSERT_EQ(target, expected[from]);
+      } else if (used.contains(from)) {
+        ASSERT_EQ(target, kNone) << "a wedge in use that no removed triangle maps is carried";
+      } else {
+        ASSERT_NE(target, kNone) << "a wedge out of use ends";
+      }
+    }
+
+    triangles_ = std::move(left);
+    for (Index& w : triangles_)
+      if (const auto found = to.find(w); found != to.end() && found->second != kNone)
+        w = found->second;
+    for (const auto& [from, target] : to)
+      if (target == kNone) stands_at_[from] = c.kept, standing_[c.kept].insert(from);
+    standing_.erase(c.removed);
+    removed_[c.removed] = true;
+  }
+
+  const Source& source_;
+  std::vector<Index> triangles_;
+  std::vector<Index> stands_at_;
+  std::map<Index, std::set<Index>> standing_;
+  std::vector<bool> removed_;
+};
+
+double rms_over_diagonal(const Source& source, const std::vector<Index>& vertex_triangles) {
+  std::vector<Index> whole;
+  for (const Index w : source.triangles) whole.push_back(source.vertex_of(w));
+  return measure_distance({source.positions, whole}, {source.positions, vertex_triangles}, 20000)
+             .rms /
+         bounding_box_diagonal(source.positions);
+}
+
+// Vertices minus edges plus triangles of what the triangles use.
+int euler_characteristic(const std::vector<Index>& vertex_triangles) {
+  std::set<Index> vertices(vertex_triangles.begin(), vertex_triangles.end());
+  std::set<std::pair<Index, Index>> edges;
+  for (std::size_t t = 0; t < vertex_triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.insert(std::minmax({vertex_triangles[t + k], vertex_triangles[t + (k + 1) % 3]}));
+  return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) +
+         static_cast<int>(vertex_triangles.size() / 3);
+}
+
+// side × side vertices in the plane z = 0 with one attribute pair, u v; left and right of the
+// middle column the charts differ, when there are two.
+Source flat_grid(Index side, int charts) {
+  Source source = source_of(test::grid(side));
+  for (std::size_t i = 2; i < source.positions.size(); i += 3) source.positions[i] = 0;
+  const Index middle = side / 2;
+  source.attribute_count = 2;
+  const auto set_uv = [&](Index x, Index y, float shift) {
+    const float scale = 1.f / static_cast<float>(4 * side);
+    source.attributes.push_back(static_cast<float>(x) * scale + shift);
+    source.attributes.push_back(static_cast<float>(y) * scale);
+  };
+  for (Index v = 0; v < side * side; ++v) set_uv(v % side, v / side, 0);
+  if (charts == 1) return source;
+  for (Index v = 0; v < side * side; ++v) source.wedge_vertex.push_back(v);
+  for (Index y = 0; y < side; ++y) {
+    source.wedge_vertex.push_back(y * side + middle);
+    set_uv(middle, y, 0.5f);
+  }
+  for (Index v = 0; v < side * side; ++v)
+    if (v % side > middle) source.attributes[2 * v] += 0.5f;
+  for (std::size_t t = 0; t < source.triangles.size(); t += 3) {
+    const auto corners = std::span(source.triangles).subspan(t, 3);
+    if (std::ranges::none_of(corners, [&](Index w) { return w % side > middle; })) continue;
+    for (Index& w : corners)
+      if (w % side == middle) w = side * side + w / side;
+  }
+  return source;
+}
+
+struct NamedSource {
+  const char* name;
+  Source source;
+};
+
+std::vector<NamedSource> generated_sources() {
+  return {{"grid", source_of(test::grid(20))},
+          {"torus", source_of(test::torus(24, 12))},
+          {"cube", source_of(test::cube(false))},
+          {"cube with seams", source_of(test::cube(true))},
+          {"two charts", flat_grid(15, 2)},
+          {"soup", source_of(test::random_soup(1, 60, 300))},
+          {"dense soup", source_of(test::random_soup(2, 12, 300))}};
+}
+
+TEST(Simplify, FollowsItsRulesOnGeneratedMeshes) {
+  for (const auto& [name, source] : generated_sources())
+    for (const std::uint64_t target : {source.triangle_count() / 3, std::uint64_t{0}}) {
+      SCOPED_TRACE(name);
+      const CollapseSequence sequence = run(source, {.target_triangles = target});
+      Replay replay(source);
+      replay.perform(sequence);
+      if (HasFatalFailure()) return;
+      EXPECT_LE(sequence.triangles_left, target);
+      EXPECT_EQ(sequence.stop, SimplifyStop::target);
+    }
+}
+
+RC_GTEST_PROP(Simplify, ReducesAnySoupToNothingByItsRules, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const auto vertices = *rc::gen::inRange<Index>(3, 40);
+  const auto faces = *rc::gen::inRange<Index>(0, 200);
+  Source source = source_of(test::random_soup(seed, vertices, faces));
+  if (*rc::gen::arbitrary<bool>()) source.attributes.clear(), source.attribute_count = 0;
+  const CollapseSequence sequence = run(source);
+  testing::TestPartResultArray failures;
+  {
+    testing::ScopedFakeTestPartResultReporter reporter(
+        testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
+    Replay(source).perform(sequence);
+  }
+  if (failures.size() > 0) RC_FAIL(failures.GetTestPartResult(0).message());
+  RC_ASSERT(sequence.triangles_left == 0u);
+}
+
+TEST(Simplify, GivesTheSameSequenceAgain) {
+  for (const auto& [name, source] : generated_sources()) {
+    SCOPED_TRACE(name);
+    const CollapseSequence a = run(source), b = run(source);
+    EXPECT_EQ(a.collapses, b.collapses);
+    EXPECT_EQ(a.moves, b.moves);
+  }
+}
+
+TEST(Simplify, OfATargetIsAPrefixOfTheWhole) {
+  const Source source = source_of(test::torus(24, 12));
+  const CollapseSequence whole = run(source), part = run(source, {.target_triangles = 100});
+  ASSERT_LT(part.collapses.size(), whole.collapses.size());
+  EXPECT_TRUE(std::equal(part.collapses.begin(), part.collapses.end(), whole.collapses.begin()));
+}
+
+// Powers of two scale a model without rounding, so nothing but the errors may change.
+TEST(Simplify, DoesNotDependOnTheUnit) {
+  for (const int exponent : {-1060, -300, -3, 20, 100, 1010}) {
+    SCOPED_TRACE(exponent);
+    Source source = source_of(test::random_soup(3, 60, 300));
+    const CollapseSequence unit = run(source);
+    for (double& x : source.positions) x = std::ldexp(x, exponent);
+    const CollapseSequence scaled = run(source);
+    ASSERT_EQ(unit.collapses.size(), scaled.collapses.size());
+    EXPECT_EQ(unit.moves, scaled.moves);
+    for (std::size_t i = 0; i < unit.collapses.size(); ++i) {
+      EXPECT_EQ(unit.collapses[i].removed, scaled.collapses[i].removed);
+      EXPECT_EQ(unit.collapses[i].kept, scaled.collapses[i].kept);
+      const float error = scaled.collapses[i].error;
+      ASSERT_TRUE(std::isfinite(error));
+      if (std::abs(exponent) <= 100) {
+        EXPECT_FLOAT_EQ(error, std::ldexp(unit.collapses[i].error, exponent));
+      }
+    }
+  }
+}
+
+TEST(Simplify, FlattensAPlaneAtNoError) {
+  const Source source = flat_grid(40, 1);
+  const CollapseSequence sequence = run(source, {.target_triangles = 2});
+  Replay replay(source);
+  replay.perform(sequence);
+  EXPECT_EQ(sequence.triangles_left, 2u);
+  EXPECT_LT(sequence.collapses.back().error, 1e-4 * bounding_box_diagonal(source.positions));
+  EXPECT_EQ(sequence.forced_border + sequence.forced_link + sequence.forced_flip, 0u);
+  for (const Index corner : {0u, 39u, 40u * 39u, 40u * 40u - 1})
+    EXPECT_FALSE(replay.is_removed(corner));
+}
+
+TEST(Simplify, DoesNotCrossASeam) {
+  const Source source = flat_grid(31, 2);
+  const CollapseSequence sequence = run(source, {.target_triangles = 4});
+  Replay replay(source);
+  replay.perform(sequence);
+  EXPECT_EQ(sequence.triangles_left, 4u);
+  for (const WedgeMove& move : sequence.moves) EXPECT_NE(move.to, kNone) << move.from;
+  // The shift tells the chart: u within a triangle spans less than the shift.
+  const std::vector<Index> left = replay.triangles();
+  for (std::size_t t = 0; t < left.size(); t += 3) {
+    std::set<bool> charts;
+    for (std::size_t k = t; k < t + 3; ++k) charts.insert(source.attributes[2 * left[k]] >= 0.5f);
+    EXPECT_EQ(charts.size(), 1u);
+  }
+}
+
+TEST(Simplify, KeepsWhatAttributesShow) {
+  // A spot of another colour on a plane: with 60 triangles its outline can be kept exactly.
+  constexpr Index kSide = 33, kFirst = 12, kLast = 20;
+  Source source = flat_grid(kSide, 1);
+  source.attribute_count = 1;
+  source.attributes.clear();
+  const auto in_spot = [](Index x) { return x >= kFirst && x <= kLast; };
+  for (Index v = 0; v < kSide * kSide; ++v)
+    source.attributes.push_back(in_spot(v % kSide) && in_spot(v / kSide) ? 1.f : 0.f);
+  const double diagonal = bounding_box_diagonal(source.positions);
+
+  const CollapseSequence outlined = run(source, {.target_triangles = 60});
+  EXPECT_LT(outlined.collapses.back().error, 1e-3 * diagonal);
+  Replay replay(source);
+  replay.perform(outlined);
+  for (const Index x : {kFirst, kLast})
+    for (const Index y : {kFirst, kLast}) EXPECT_FALSE(replay.is_removed(y * kSide + x));
+
+  const CollapseSequence blurred = run(source, {.target_triangles = 10});
+  EXPECT_GT(blurred.collapses.back().error, 1e-2 * diagonal);
+}
+
+TEST(Simplify, KeepsTopologyWhileGuardsHold) {
+  const Source source = source_of(test::torus(60, 30));
+  const CollapseSequence sequence = run(source, {.target_triangles = 100});
+  Replay replay(source);
+  replay.perform(sequence);
+  EXPECT_EQ(sequence.forced_link + sequence.forced_border, 0u);
+  EXPECT_EQ(euler_characteristic(replay.vertex_triangles()), 0);
+  EXPECT_LT(rms_over_diagonal(source, replay.vertex_triangles()), 0.02);
+}
+
+TEST(Simplify, ErrorIsOfTheOrderOfTheDistance) {
+  const Source source = source_of(test::torus(80, 40));
+  for (const std::uint64_t target : {2000u, 500u, 150u}) {
+    const CollapseSequence sequence = run(source, {.target_triangles = target});
+    Replay replay(source);
+    replay.perform(sequence);
+    const double rms = rms_over_diagonal(source, replay.vertex_triangles()) *
+                       bounding_box_diagonal(source.positions);
+    EXPECT_GT(sequence.collapses.back().error, rms / 3);
+    EXPECT_LT(sequence.collapses.back().error, rms * 10);
+  }
+}
+
+TEST(Simplify, TakesNoCollapseAboveTheErrorLimit) {
+  const Source source = source_of(test::grid(30));
+  const CollapseSequence limited = run(source, {.target_triangles = 0, .max_error = 0.1});
+  EXPECT_EQ(limited.stop, SimplifyStop::max_error);
+  EXPECT_GT(limited.triangles_left, 0u);
+  ASSERT_FALSE(limited.collapses.empty());
+  EXPECT_LE(limited.collapses.back().error, 0.1f);
+  Replay replay(source);
+  replay.perform(limited);
+  EXPECT_LT(rms_over_diagonal(source, replay.vertex_triangles()) *
+                bounding_box_diagonal(source.positions),
+            0.1);
+}
+
+TEST(Simplify, StopsWhenToldTo) {
+  const Source source = source_of(test::grid(100));
+  double last = 0;
+  const CollapseSequence sequence =
+      simplify(source.input(), {}, [&](std::string_view, double done) {
+        last = done;
+        return false;
+      });
+  EXPECT_EQ(sequence.stop, SimplifyStop::interrupted);
+  EXPECT_GT(sequence.triangles_left, 0u);
+  EXPECT_GT(last, 0);
+  EXPECT_LT(last, 1);
+}
+
+TEST(Simplify, NeverTouchesVerticesThatAreNotFinite) {
+  constexpr double kBad[] = {std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity()};
+  Source source = source_of(test::grid(12));
+  const Index locked[] = {0, 17, 18, 77};
+  for (std::size_t i = 0; i < std::size(locked); ++i)
+    source.positions[3 * locked[i] + i % 3] = kBad[i % 3];
+  const CollapseSequence sequence = run(source);
+  Replay replay(source);
+  replay.perform(sequence);
+  for (const Collapse& c : sequence.collapses)
+    for (const Index v : locked) {
+      EXPECT_NE(c.removed, v);
+      EXPECT_NE(c.kept, v);
+    }
+  EXPECT_EQ(sequence.stop, SimplifyStop::exhausted);
+  EXPECT_LT(sequence.triangles_left, source.triangle_count() / 4);
+}
+
+TEST(Simplify, HasNothingToDoWithoutTriangles) {
+  for (const Source& source : {Source{}, Source{.positions = {0, 0, 0, 1, 1, 1}}}) {
+    const CollapseSequence sequence = run(source);
+    EXPECT_TRUE(sequence.collapses.empty());
+    EXPECT_EQ(sequence.triangles_left, 0u);
+    EXPECT_EQ(sequence.stop, SimplifyStop::target);
+  }
+}
+
+TEST(Simplify, HasNothingToDoWhenTheTargetIsMet) {
+  const Source source = source_of(test::grid(5));
+  const CollapseSequence sequence = run(source, {.target_triangles = 32});
+  EXPECT_TRUE(sequence.collapses.empty());
+  EXPECT_EQ(sequence.triangles_left, 32u);
+}
+
+// n triangles around one vertex (two with `spindle`), on a ring that is not flat.
+Source fan(Index n, bool spindle) {
+  Source source;
+  for (Index i = 0; i < n; ++i) {
+    const double a = 6.283185307179586 * i / n;
+    source.positions.insert(source.positions.end(),
+                            {std::cos(a), std::sin(a), std::sin(5 * a) / 9});
+  }
+  source.positions.insert(source.positions.end(), {0, 0, 1, 0, 0, -1});
+  for (Index i = 0; i < n; ++i) {
+    const Index j = (i + 1) % n;
+    source.triangles.insert(source.triangles.end(), {n, i, j});
+    if (spindle) source.triangles.insert(source.triangles.end(), {n + 1, j, i});
+  }
+  return source;
+}
+
+// Pages that share one edge.
+Source book(Index n) {
+  Source source{.positions = {0, 0, 0, 0, 0, 1}};
+  for (Index i = 0; i < n; ++i) {
+    const double a = 6.283185307179586 * i / n;
+    source.positions.insert(source.positions.end(), {std::cos(a), std::sin(a), 0.5});
+    source.triangles.insert(source.triangles.end(), {0, 1, i + 2});
+  }
+  return source;
+}
+
+// The same mesh with a wedge for each corner.
+Source with_corner_wedges(Source source) {
+  source.wedge_vertex = source.triangles;
+  for (Index c = 0; c < source.triangles.size(); ++c) source.triangles[c] = c;
+  for (Index v = 0; v < source.vertex_count(); ++v) source.wedge_vertex.push_back(v);
+  return source;
+}
+
+double cpu_seconds(const Source& source) {
+  const std::clock_t start = std::clock();
+  const CollapseSequence sequence = run(source);
+  EXPECT_EQ(sequence.triangles_left, 0u);
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+TEST(Simplify, IsNotQuadraticInTheValence) {
+  constexpr Index kValence = 100'000;
+  for (const auto& [name, source] :
+       {NamedSource{"fan", fan(kValence, false)}, NamedSource{"spindle", fan(kValence, true)},
+        NamedSource{"book", book(kValence)},
+        NamedSource{"wedges", with_corner_wedges(fan(kValence, true))}}) {
+    SCOPED_TRACE(name);
+    // A quarter of a second when built for speed; the rest is for slow machines and sanitizers.
+    // Quadratic time would be minutes.
+    EXPECT_LT(cpu_seconds(source), 5);
+  }
+}
+
+TEST(Simplify, ReachesFivePercentOfEveryTopologyModel) {
+  const char* const kModels[] = {"many_small_holes.ply",
+                                 "mesh_with_colors.obj",
+                                 "quad5.ply",
+                                 "elephant-with-holes.ply",
+                                 "three_cubes.obj",
+                                 "truck.obj",
+                                 "abominevole.ply",
+                                 "blobby-shuffled.ply",
+                                 "boeing.ply",
+                                 "prim.obj",
+                                 "fan3.obj",
+                                 "degtri_sliding.obj",
+                                 "bunny2.ply",
+                                 "corner_with_sharp_edge.obj",
+                                 "ALSTOM_TEST4.obj",
+                                 "constraints_100_1.obj",
+                                 "beetle.obj",
+                                 "tetra_intersected_by_triangle.obj",
+                                 "tmp_wing_with_isolated_facet.obj",
+                                 "hourglass_ico.obj",
+                                 "office_chair.obj"};
+  int read = 0;
+  for (const std::string name : kModels) {
+    const auto mesh = test::real_mesh("nasty/topology/" + name);
+    if (!mesh) continue;
+    ++read;
+    SCOPED_TRACE(name);
+    const Source source = source_of(*mesh);
+    const std::uint64_t target = source.triangle_count() / 20;
+    const CollapseSequence sequence = run(source, {.target_triangles = target});
+    EXPECT_LE(sequence.triangles_left, target);
+    if (source.triangle_count() < 3000) Replay(source).perform(sequence);  // which is quadratic
+  }
+  if (read == 0) GTEST_SKIP() << "the folder of real models is not there";
+}
+
+}  // namespace
+}  // namespace pstrip
