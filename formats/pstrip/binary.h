@@ -60,6 +60,10 @@ std::uint64_t decoder_memory(std::span<const ProgressiveMesh> meshes, std::uint6
 /// cost    O(file); one buffer of exactly the file's size
 Result<Bytes> write_binary(const ProgressiveStrips& strips);
 
+/// The same for strips that break rules, to make files that a validator must refuse. Lists must be
+/// as long as the counts that the file stores for them.
+Result<Bytes> write_binary_unchecked(const ProgressiveStrips& strips);
+
 enum class ReadMode : std::uint8_t {
   whole,   ///< a file that ends early is an error
   prefix,  ///< a file that ends early gives what its whole packets brought

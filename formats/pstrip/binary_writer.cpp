@@ -185,6 +185,10 @@ FileHeader totals_of(const ProgressiveStrips& strips) {
 
 Result<Bytes> write_binary(const ProgressiveStrips& strips) {
   assert(strips.complete && check(strips));
+  return write_binary_unchecked(strips);
+}
+
+Result<Bytes> write_binary_unchecked(const ProgressiveStrips& strips) {
   FileHeader header = totals_of(strips);
   std::vector<IndexRow> rows;
   for (const BaseLevel& base : strips.bases) rows.push_back(row_of(base));

@@ -1,5 +1,6 @@
 #include "formats/pstrip/numbers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,7 @@ constexpr std::string_view kNanBits = "nan:0x";
 template <class T>
 bool parse_nan_bits(std::string_view digits, T& out) {
   if (digits.size() != 2 * sizeof(T)) return false;
+  if (std::ranges::any_of(digits, [](char c) { return c >= 'A' && c <= 'F'; })) return false;
   BitsOf<T> bits{};
   const char* end = digits.data() + digits.size();
   const auto [at, error] = std::from_chars(digits.data(), end, bits, 16);
