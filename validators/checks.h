@@ -24,8 +24,8 @@ Check rows_counted, rows_point_to_chunks, rows_describe_chunks, row_vertices, ro
     row_strips, errors_finite, errors_fall;
 
 // checks_base.cpp: base and index map.
-Check wedge_vertices_complete, wedge_vertices_exist, vertices_have_wedges, map_wedges_exist,
-    symbols_allowed, symbols_resolve, groups_end_strips, only_polygons_have_strips;
+Check wedge_vertices_exist, vertices_have_wedges, map_wedges_exist, symbols_allowed,
+    symbols_resolve, groups_end_strips, only_polygons_have_strips;
 
 // checks_result.cpp: the mesh at full resolution.
 Check full_counts_reached;

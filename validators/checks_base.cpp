@@ -17,15 +17,6 @@ Where in_map(Index mesh, std::size_t entry) {
 
 }  // namespace
 
-void wedge_vertices_complete(const Document& doc, Findings& out) {
-  for_each_base(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    const std::size_t wanted = mesh.single_wedges ? 0 : mesh.base_wedges;
-    if (mesh.base_wedge_vertex.size() != wanted)
-      out.add({.field = Field::base_wedge_vertex, .mesh = m},
-              std::to_string(mesh.base_wedge_vertex.size()) + " of " + std::to_string(wanted));
-  });
-}
-
 void wedge_vertices_exist(const Document& doc, Findings& out) {
   for_each_base(doc, [&](Index m, const ProgressiveMesh& mesh) {
     for (std::size_t w = 0; w < mesh.base_wedge_vertex.size() && !out.full(); ++w)

@@ -74,7 +74,8 @@ Where level_at(const Document& doc, Index mesh, std::size_t level, std::size_t r
 
 void reached(const Document& doc, Findings& out, Index Packet::*says, Index Shown::*is) {
   for_each_level(doc, [&](Index m, std::size_t level, const Packet& packet, std::size_t row) {
-    if (level >= doc.replays[m].levels.size()) return;
+    const bool declared = doc.xml || row < doc.index.size();
+    if (!declared || level >= doc.replays[m].levels.size()) return;
     const Index found = doc.replays[m].levels[level].*is;
     if (packet.*says != found) out.add(level_at(doc, m, level, row), versus(packet.*says, found));
   });
@@ -112,8 +113,7 @@ void base_end(const Document& doc, Findings& out) {
 }
 
 void file_bytes(const Document& doc, Findings& out) {
-  for (const FaultAt& fault : doc.faults.list())
-    if (fault.fault == Fault::past_file_bytes) out.add(fault.where, "the chunk runs past it");
+  noticed<Fault::past_file_bytes>(doc, out);
   if (!has_header(doc) || doc.depth < Depth::model) return;
   const Chunk& last = doc.frame.chunks.back();
   const std::uint64_t end = last.offset + last.bytes();
@@ -142,7 +142,7 @@ void level_computed(const Document& doc, Findings& out) {
 void vsplits_fill(const Document& doc, Findings& out) {
   for (std::size_t m = 0; m < doc.declared.size(); ++m) {
     const MeshCounts& c = doc.declared[m];
-    if (c.base_vertices > c.vertices) continue;  // M-011 says so
+    if (c.base_vertices > c.vertices || c.vertices > kMaxCount) continue;  // M-011, M-001
     const Index lacking = c.vertices - c.base_vertices;
     if (c.vsplits != lacking) out.add(count_of(m, 5), versus(c.vsplits, lacking));
   }
@@ -167,6 +167,7 @@ void packets_not_empty(const Document& doc, Findings& out) {
 void strips_fit_map(const Document& doc, Findings& out) {
   for (std::size_t m = 0; m < doc.declared.size(); ++m) {
     const MeshCounts& c = doc.declared[m];
+    if (std::max(c.triangles, c.strips) > kMaxCount) continue;  // M-001
     if (c.triangles > c.map_entries) out.add(count_of(m, 2), std::to_string(c.triangles));
     if (c.strips > c.map_entries) out.add(count_of(m, 3), std::to_string(c.strips));
   }
@@ -188,6 +189,9 @@ void mesh_wedges_come(const Document& doc, Findings& out) {
   if (doc.ended_early) return;
   for (std::size_t m = 0; m < doc.declared.size(); ++m) {
     const MeshCounts& c = doc.declared[m];
+    // M-002, M-011 and M-001 say so.
+    if (doc.strips.meshes[m].single_wedges || c.base_wedges > c.wedges || c.wedges > kMaxCount)
+      continue;
     const std::uint64_t come =
         std::uint64_t{c.base_wedges} + doc.strips.meshes[m].wedge_places.size();
     if (come != c.wedges) out.add(count_of(m, 1), versus(c.wedges, come));
@@ -255,8 +259,7 @@ void group_materials_exist(const Document& doc, Findings& out) {
 // ---- PIDX ----
 
 void rows_counted(const Document& doc, Findings& out) {
-  for (const FaultAt& fault : doc.faults.list())
-    if (fault.fault == Fault::index_missing) out.add(fault.where, "PIDX is not there");
+  noticed<Fault::index_missing>(doc, out);
   if (doc.xml || doc.depth < Depth::model || doc.ended_early) return;
   const std::uint64_t chunks = std::uint64_t{doc.header->meshes} + doc.header->packets;
   if (doc.index.size() != chunks)

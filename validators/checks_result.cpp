@@ -86,7 +86,8 @@ bool is_sound(const ProgressiveStrips& strips, Index mesh) {
 
 void full_counts_reached(const Document& doc, Findings& out) {
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    if (!doc.replays[m].finished) return;
+    // Records that are not there could still change what is shown.
+    if (!doc.replays[m].finished || mesh.vsplits.size() != doc.declared[m].vsplits) return;
     const Shown& is = doc.replays[m].levels.back();
     const auto compare = [&](const char* name, Index declared, Index reached, std::uint64_t count) {
       if (declared != reached)
@@ -172,8 +173,7 @@ void faces_counted(const Document& doc, Findings& out) {
 }
 
 void faces_needed(const Document& doc, Findings& out) {
-  for (const FaultAt& fault : doc.faults.list())
-    if (fault.fault == Fault::faces_empty) out.add(fault.where, "the table is empty");
+  noticed<Fault::faces_empty>(doc, out);
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
     const bool there = doc.xml ? !mesh.faces.empty() : doc.mesh_chunks[m].faces != kNone;
     if (!there && !mesh.face_attribute_formats.empty())
@@ -230,7 +230,9 @@ void digest_matches(const Document& doc, Findings& out) {
     if (mesh.triangles != doc.replays[m].levels.back().triangles) return;  // another rule's
     Level level(mesh);
     level.refine_fully();
-    if (!std::ranges::equal(digest(mesh_of(level).value()), mesh.digest))
+    const Result<Mesh> decoded = mesh_of(level);
+    if (!decoded || !find_inconsistency(*decoded).empty()) return;  // another rule's
+    if (!std::ranges::equal(digest(*decoded), mesh.digest))
       out.add({.field = Field::digest, .mesh = m});
   });
 }

@@ -7,19 +7,62 @@
 namespace pstrip {
 namespace {
 
+/// The reader's fixed phrases and the rules that they belong to.
+struct Phrase {
+  std::string_view message;
+  Fault fault;
+};
+constexpr Phrase kPhrases[] = {
+    {"document type declarations are not allowed", Fault::xml_declaration},
+    {"processing instructions are not allowed", Fault::xml_declaration},
+    {"not one base for each mesh", Fault::xml_bases},
+    {"bases are not in the order of the meshes", Fault::xml_bases},
+    {"not as many vsplits as announced", Fault::xml_packet_vsplits},
+    {"fewer numbers than announced", Fault::xml_list_length},
+    {"more numbers than announced", Fault::xml_list_length},
+    {"stands twice for a mesh", Fault::xml_twice},
+    {"stands twice for an image", Fault::xml_twice},
+    {"element without content", Fault::xml_twice},
+    {"not a chunk type", Fault::xml_chunk_type},
+    {"chunk type that has elements of its own", Fault::xml_chunk_type},
+    {"not a number in range", Fault::xml_number},
+    {"number is missing, malformed or out of range", Fault::xml_number},
+    {"backslash that escapes nothing", Fault::xml_backslash},
+    {"malformed base64", Fault::xml_base64},
+    {"not between 1 and 255", Fault::no_components},
+    {"index-map entry is neither a wedge nor a marker", Fault::xml_number},
+    {"packet names a mesh past the end", Fault::packet_mesh},
+    {"names an image past the end", Fault::image_data},
+    {"more triangles replaced than there are", Fault::xml_list_length},
+};
+
+Fault corrupt_fault(const Error& error, bool well_formed) {
+  const auto inside = [&](std::string_view element) {
+    return error.path.find(element) != std::string::npos;
+  };
+  const auto* const phrase = std::ranges::find(kPhrases, error.message, &Phrase::message);
+  if (phrase != std::end(kPhrases)) return phrase->fault;
+  if (!well_formed || error.message == "malformed XML") return Fault::xml_malformed;
+  if (error.message == "word is none of those defined")
+    return error.path.ends_with("/@type") ? Fault::type_undefined : Fault::value_undefined;
+  if (error.message == "names a mesh past the end") {
+    if (inside("/faces[")) return Fault::faces_mesh;
+    return inside("/order[") ? Fault::order_mesh : Fault::digest_mesh;
+  }
+  return inside("/vsplit[") ? Fault::xml_vsplit_form : Fault::xml_schema;
+}
+
 /// Which rule an answer of the reader belongs to.
 Fault fault_of(const Error& error, ByteView file, const Limits& limits) {
   if (error.code == ErrorCode::truncated) return Fault::truncated;
   if (error.code == ErrorCode::over_limit) return Fault::over_limit;
-  if (error.code == ErrorCode::unsupported) {
-    if (error.path.ends_with("/@version")) return Fault::version_unknown;
-    if (error.path.ends_with("/@profile")) return Fault::profile_unknown;
-    if (error.path.ends_with("/@algorithm")) return Fault::digest_unknown;
-    if (error.path.ends_with("/@type")) return Fault::critical_chunk_unknown;
-    return Fault::xml_unsupported;
-  }
-  const bool malformed = error.message == "malformed XML" || !scan_xml(file, limits);
-  return malformed ? Fault::xml_malformed : Fault::xml_content;
+  if (error.code != ErrorCode::unsupported)
+    return corrupt_fault(error, scan_xml(file, limits).has_value());
+  if (error.path.ends_with("/@version")) return Fault::version_unknown;
+  if (error.path.ends_with("/@profile")) return Fault::profile_unknown;
+  if (error.path.ends_with("/@algorithm")) return Fault::digest_unknown;
+  if (error.path.ends_with("/@type")) return Fault::critical_chunk_unknown;
+  return Fault::xml_unsupported;
 }
 
 /// The path of the model that xml.h knows lines by.
@@ -128,6 +171,14 @@ Document open_xml(ByteView file, const Limits& limits) {
   doc.ended_early = !doc.strips.complete;
   for (const ProgressiveMesh& mesh : doc.strips.meshes)
     doc.declared.push_back(counts_of(mesh, doc.strips.complete));
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
+    const ProgressiveMesh& mesh = doc.strips.meshes[m];
+    if (mesh.base_wedge_vertex.size() != (mesh.single_wedges ? 0 : mesh.base_wedges)) {
+      doc.faults.add(Fault::xml_list_length, {.field = Field::base_wedge_vertex, .mesh = m},
+                     std::to_string(mesh.base_wedge_vertex.size()) + " entries");
+      return doc;
+    }
+  }
   doc.packets_of.resize(doc.strips.meshes.size());
   std::vector<Index> next(doc.strips.meshes.size());
   for (Index k = 0; k < doc.strips.packets.size(); ++k) {

@@ -28,12 +28,14 @@ class Findings {
 
   /// found  what stands there instead, as the end of a sentence; may be empty
   void add(const Where& where, std::string_view found = {});
-  bool full() const { return report_.full(); }
+  /// This rule has been heard and the report keeps no more: a check over a long list may stop.
+  bool full() const { return heard_ && report_.full(); }
 
  private:
   const Document& doc_;
   const Rule& rule_;
   Report& report_;
+  bool heard_ = false;
 };
 
 /// One thing that the specification demands of a file.

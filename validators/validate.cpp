@@ -30,6 +30,7 @@ bool holds(Stage stage, const Document& doc) {
 }  // namespace
 
 void Findings::add(const Where& where, std::string_view found) {
+  heard_ = true;
   const Severity severity = rule_.severity;
   Finding finding{rule_.code, severity, rule_.clause, std::string(rule_.holds), kNoOffset, {}};
   if (!found.empty()) finding.message.append(" Found: ").append(found).append(".");

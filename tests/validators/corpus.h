@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/bytes.h"
+
+namespace pstrip::test {
+
+/// One file of tests/data/valid or tests/data/invalid.
+struct CorpusFile {
+  std::string name;  ///< "PS1001_signature.pstrip": the rule that it breaks comes first
+  Bytes bytes;
+};
+
+/// Small files that break nothing, of both variants.
+std::vector<CorpusFile> valid_corpus();
+
+/// For each rule at least one file that breaks it and no other. Deterministic.
+std::vector<CorpusFile> invalid_corpus();
+
+/// spec/rules.md as the rules and the corpus make it.
+std::string current_rules_page();
+
+}  // namespace pstrip::test

@@ -1,0 +1,46 @@
+// Writes tests/data/valid, tests/data/invalid and spec/rules.md anew:
+//   validators.make_corpus SOURCE_DIRECTORY
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/validators/corpus.h"
+
+namespace {
+
+bool write(const std::filesystem::path& path, pstrip::ByteView bytes) {
+  std::ofstream out(path, std::ios::binary);
+  const std::string_view text = pstrip::as_text(bytes);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) std::fprintf(stderr, "cannot write %s\n", path.c_str());
+  return out.good();
+}
+
+/// The folder holds these files afterwards and no others.
+bool write_all(const std::filesystem::path& folder,
+               const std::vector<pstrip::test::CorpusFile>& files) {
+  std::error_code error;
+  std::filesystem::remove_all(folder, error);
+  std::filesystem::create_directories(folder, error);
+  for (const pstrip::test::CorpusFile& file : files)
+    if (!write(folder / file.name, file.bytes)) return false;
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: validators.make_corpus SOURCE_DIRECTORY\n");
+    return 1;
+  }
+  const std::filesystem::path source = argv[1];
+  const std::string page = pstrip::test::current_rules_page();
+  return write_all(source / "tests/data/valid", pstrip::test::valid_corpus()) &&
+                 write_all(source / "tests/data/invalid", pstrip::test::invalid_corpus()) &&
+                 write(source / "spec/rules.md", pstrip::as_bytes(page))
+             ? 0
+             : 2;
+}
