@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -25,23 +24,30 @@ std::string page(const std::string& name) {
 
 struct Clause {
   std::string page;
-  bool binds_files = false;  ///< with MUST, and not one for decoders
+  bool binds_files = false;  ///< or, under D, decoders
 };
 
-/// Clauses by identifier: "- [M-001] The numbers … MUST …".
+/// Clauses by identifier: "- [M-001] The numbers … MUST …". A clause goes on in indented lines.
 std::map<std::string, Clause> clauses() {
+  constexpr std::string_view kStart = "- [";
+  constexpr std::size_t kIdBytes = 5;
   std::map<std::string, Clause> out;
-  const std::regex start(R"(\n- \[([A-Z]-\d{3})\] )");
   for (const char* name : {"model.md", "strips.md", "vsplit.md", "container.md", "xml.md"}) {
-    const std::string text = page(name);
-    for (std::sregex_iterator it(text.begin(), text.end(), start), end; it != end; ++it) {
-      const std::string id = (*it)[1];
-      std::string rest = it->suffix();
-      rest = rest.substr(0, std::min(rest.find("\n- "), rest.find("\n\n")));
-      const bool must = rest.find("MUST") != std::string::npos;
-      EXPECT_TRUE(out.emplace(id, Clause{name, must && id[0] != 'D'}).second) << id << " twice";
+    std::istringstream lines(page(name));
+    Clause* current = nullptr;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with(kStart) && line.size() > kStart.size() + kIdBytes &&
+          line[kStart.size() + kIdBytes] == ']') {
+        const auto [at, is_new] = out.emplace(line.substr(kStart.size(), kIdBytes), Clause{name});
+        EXPECT_TRUE(is_new) << at->first << " twice";
+        current = &at->second;
+      } else if (!line.starts_with("  ")) {
+        current = nullptr;
+      }
+      if (current != nullptr && line.find("MUST") != std::string::npos) current->binds_files = true;
     }
   }
+  EXPECT_GT(out.size(), 100u);
   return out;
 }
 
@@ -68,7 +74,8 @@ TEST(Rules, CoverEveryClauseThatBindsFiles) {
   for (const Rule& rule : rules())
     for (const std::string& id : clauses_of(rule)) covered.insert(id);
   for (const auto& [id, clause] : clauses())
-    EXPECT_TRUE(!clause.binds_files || covered.contains(id)) << id << " of " << clause.page;
+    EXPECT_TRUE(id[0] == 'D' || !clause.binds_files || covered.contains(id))
+        << id << " of " << clause.page;
 }
 
 TEST(Rules, CodesEndLikeTheirClauses) {
