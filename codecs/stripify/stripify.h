@@ -22,7 +22,8 @@ struct StripInput {
 enum class StripGoal : std::uint8_t { indices, strips };
 
 // Effort of `best`, in moves tried per triangle; the result depends on nothing but the input and
-// the options. On a mesh of 70,000 triangles about 0.02, 2 and 10 seconds.
+// the options. On a mesh of 70,000 triangles about 0.02, 2 and 10 seconds. Below 20, few strips are
+// out of reach.
 inline constexpr std::uint32_t kEffortFast = 1;
 inline constexpr std::uint32_t kEffortHigh = 500;
 inline constexpr std::uint32_t kEffortMax = 2500;

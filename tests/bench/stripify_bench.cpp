@@ -100,6 +100,12 @@ void add_model(const std::string& model, const Mesh& source) {
     add(
         model + "/best/effort:" + std::to_string(effort), mesh,
         [=] { return find_stripifier("best")->run(mesh->input(), {.effort = effort}); }, true);
+  for (const std::uint32_t effort : {20u, kEffortHigh, kEffortMax}) {
+    const StripOptions options{.goal = StripGoal::strips, .effort = effort};
+    add(
+        model + "/best-few-strips/effort:" + std::to_string(effort), mesh,
+        [=] { return find_stripifier("best")->run(mesh->input(), options); }, true);
+  }
 }
 
 void add_models() {

@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include "codecs/stripify/path_index.h"
 #include "codecs/stripify/random.h"
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
@@ -87,6 +88,53 @@ RC_GTEST_PROP(LinkedPaths, KnowWherePathsLead, (std::uint32_t seed)) {
         if (s == t || !paths.is_linked(exit)) continue;
         RC_ASSERT(paths.leads_to(exit, t) == walks_to(paths, exit, t));
       }
+  }
+}
+
+RC_GTEST_PROP(BreakSet, FindsTheNextEitherWay, (std::uint32_t seed)) {
+  Random random(seed);
+  const Index size = 2 + random.below(20'000);
+  BreakSet breaks;
+  breaks.reset(size);
+  std::vector<bool> expected(size);
+  for (int i = 0; i < 40; ++i) {
+    const Index at = random.below(size);
+    const bool on = random.below(3) != 0;
+    breaks.set(at, on);
+    expected[at] = on;
+  }
+  breaks.set(0, true);
+  breaks.set(size - 1, true);
+  expected.front() = expected.back() = true;
+  for (int i = 0; i < 40; ++i) {
+    const Index at = random.below(size);
+    Index first = at, last = at;
+    while (!expected[first]) ++first;
+    while (!expected[last]) --last;
+    RC_ASSERT(breaks.first_from(at) == first);
+    RC_ASSERT(breaks.last_to(at) == last);
+  }
+}
+
+// More changes than it takes to number anew.
+RC_GTEST_PROP(PathIndex, FindsEndsWhileLinksChange, (std::uint32_t seed)) {
+  const StripMesh mesh = test::strip_mesh(test::torus(9, 8));
+  LinkedPaths paths(make_dual_graph(mesh.input()), Links(mesh.triangles.size()));
+  Random random(seed);
+  PathIndex index(paths);
+  for (int i = 0; i < 3000; ++i) {
+    const Index h = LinkedPaths::half_edge(random.below(paths.triangle_count()), random.below(3));
+    const Index s = LinkedPaths::triangle_of(h), t = LinkedPaths::triangle_of(paths.opposite(h));
+    if (paths.is_linked(h)) {
+      Index at = h, end = s;
+      for (; at != kNone; at = paths.other_link(paths.opposite(at)))
+        end = LinkedPaths::triangle_of(paths.opposite(at));
+      RC_ASSERT(index.end_over(h) == end);
+      if (random.below(8) == 0) index.flip(h);
+    } else if (paths.is_end(s) && paths.is_end(t) && index.mate(s) != t) {
+      RC_ASSERT(!paths.on_same_path(s, t));
+      index.flip(h);
+    }
   }
 }
 

@@ -45,5 +45,21 @@ TEST(Stripifiers, StayWithinTheirBandsOnRealModels) {
   }
 }
 
+TEST(Best, MakesFewStripsOfRealModels) {
+  constexpr std::pair<const char*, std::uint64_t> kMost[] = {{"classic/cow.obj", 5},
+                                                             {"classic/bun_zipper.ply", 40}};
+  if (!test::real_mesh(kMost[0].first)) GTEST_SKIP() << "the folder of real models is not there";
+  for (const auto& [model, most] : kMost) {
+    SCOPED_TRACE(model);
+    const auto mesh = test::real_mesh(model);
+    ASSERT_TRUE(mesh);
+    const test::StripMesh triangles = test::strip_mesh(*mesh);
+    const Strips strips =
+        find_stripifier("best")->run(triangles.input(), {.goal = StripGoal::strips, .effort = 20});
+    ASSERT_EQ(test::find_strip_fault(triangles.input(), strips), "");
+    EXPECT_LE(strip_stats(strips).strips, most);
+  }
+}
+
 }  // namespace
 }  // namespace pstrip

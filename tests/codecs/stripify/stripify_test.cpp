@@ -154,6 +154,31 @@ TEST(Best, MakesFewerStripsForAHigherPrice) {
   EXPECT_LT(strips(10), strips(3));
 }
 
+std::uint64_t fewest_strips(const StripMesh& mesh) {
+  const StripOptions options{.goal = StripGoal::strips, .effort = 200};
+  const Strips strips = find_stripifier("best")->run(mesh.input(), options);
+  EXPECT_EQ(find_strip_fault(mesh.input(), strips), "");
+  return strip_stats(strips).strips;
+}
+
+// Links leave out at least one edge of every triangle with three neighbours. Those of a grid of
+// n x n cells cannot be paired up: 2 (n - 1) stay alone, so that n strips are the least.
+TEST(Best, MakesAsFewStripsAsThereCanBe) {
+  EXPECT_EQ(fewest_strips(test::strip_mesh(test::torus(20, 50))), 1u);
+  EXPECT_EQ(fewest_strips(test::strip_mesh(test::grid(30))), 29u);
+  EXPECT_EQ(fewest_strips(test::strip_mesh(test::cube(true))), 6u);
+  EXPECT_EQ(fewest_strips(fan(9)), 1u);
+  EXPECT_EQ(fewest_strips(pile(5)), 5u);
+  EXPECT_EQ(fewest_strips({}), 0u);
+}
+
+RC_GTEST_PROP(Best, CoversRandomSoupsByFewStrips, (std::uint32_t seed)) {
+  const auto vertices = *rc::gen::inRange<Index>(3, 20);
+  const StripMesh mesh = test::strip_mesh(test::random_soup(seed, vertices, 200));
+  const std::uint64_t many = strip_stats(find_stripifier("best")->run(mesh.input(), {})).strips;
+  RC_ASSERT(fewest_strips(mesh) <= many);
+}
+
 TEST(Best, ChangesWithTheSeedAlone) {
   const StripMesh mesh = test::strip_mesh(test::torus(20, 30));
   const auto strips = [&](std::uint32_t seed) {
