@@ -9,7 +9,7 @@ namespace pstrip {
 namespace {
 
 constexpr NamedStripifier kStripifiers[] = {
-    {"best", "spec/strips.md", best_strips},
+    {"best", "ours, codecs/stripify/best.h", best_strips},
     {"sgi-strips", "[Akeley90; Vanecek05 §8.1 SGS]", sgi_strips},
     {"sgi-vertices", "[Akeley90; Vanecek05 §8.1 SGV]", sgi_vertices},
 };

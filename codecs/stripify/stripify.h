@@ -45,7 +45,7 @@ using Stripifier = Strips (*)(const StripInput&, const StripOptions&);
 
 struct NamedStripifier {
   std::string_view name;    ///< as on the command line
-  std::string_view source;  ///< key and section in spec/references.md
+  std::string_view source;  ///< key in spec/references.md and section, or where ours is described
   Stripifier run;
 };
 
