@@ -11,8 +11,8 @@
 #include "formats/pstrip/check.h"
 #include "formats/pstrip/parts.h"
 
-// Internal to formats/pstrip: the wire layout of each payload, once, for reading, writing, sizing
-// and listing. [spec/container.md §5 to §9]
+// For formats/pstrip and validators: the wire layout of each payload, once, for reading, writing,
+// sizing and listing. [spec/container.md §5 to §9]
 //
 // A `…_fields(io, v)` function names the fields of a payload in file order; what happens to them
 // is the Io's business: ReadIo fills v, WriteIo writes v, SizeIo adds up the bytes, PartIo notes
