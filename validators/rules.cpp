@@ -344,7 +344,7 @@ std::string explain(std::string_view code) {
 std::string rules_page(const std::function<std::string(const Rule&)>& example_of) {
   std::string out =
       "# Rules of the validator\n\n"
-      "Made from the table in `validators/rules.cpp` by `validators.make_corpus --rules`; a test\n"
+      "Made from the table in `validators/rules.cpp` by `validators.make_corpus`; a test\n"
       "compares the two. Each file named breaks its rule and no other. Codes are stable: a code "
       "is\n"
       "never given to another rule.\n\n"
