@@ -12,6 +12,11 @@ std::vector<Index> vsplits_after(const ProgressiveStrips& strips, std::size_t pa
   return done;
 }
 
+tl::unexpected<Error> failed_mesh(Error error, std::size_t mesh) {
+  error.path = "/meshes/" + std::to_string(mesh);
+  return tl::unexpected(std::move(error));
+}
+
 // What the first packets of a mesh leave of its arrays.
 void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
   std::size_t wedges = 0, carried = 0, places = 0;
@@ -83,10 +88,7 @@ Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets) {
     Level level(strips.meshes[m]);
     level.refine(vsplits[m]);
     Result<Mesh> mesh = decoded_mesh(level);
-    if (!mesh) {
-      mesh.error().path = "/meshes/" + std::to_string(m);
-      return tl::unexpected(mesh.error());
-    }
+    if (!mesh) return failed_mesh(mesh.error(), m);
     model.meshes.push_back(std::move(mesh).value());
   }
   return model;
@@ -94,6 +96,29 @@ Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets) {
 
 Result<Model> decode(const ProgressiveStrips& strips) {
   return decode(strips, strips.packets.size());
+}
+
+Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets) {
+  Model model;
+  const std::vector<Index> vsplits =
+      vsplits_after(strips, std::min(packets, strips.packets.size()));
+  model.scene = std::move(strips.scene);
+  for (std::size_t m = 0; m < strips.meshes.size(); ++m) {
+    ProgressiveMesh progressive = std::move(strips.meshes[m]);
+    Level level(progressive);
+    level.refine(vsplits[m]);
+    // A level that goes no further needs no records.
+    level.forget_symbols();
+    progressive.base_map = {};
+    progressive.vsplits = {};
+    progressive.wedge_places = {};
+    progressive.places = {};
+    progressive.carried = {};
+    Result<Mesh> mesh = decoded_mesh(level);
+    if (!mesh) return failed_mesh(mesh.error(), m);
+    model.meshes.push_back(std::move(mesh).value());
+  }
+  return model;
 }
 
 ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets) {

@@ -26,6 +26,9 @@ std::size_t packets_for(const ProgressiveStrips& strips, const LevelChoice& choi
 /// cost    O(decoded size); precondition as for Level
 Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets);
 Result<Model> decode(const ProgressiveStrips& strips);
+/// The same for strips that are not needed any more: their parts are freed as soon as they are
+/// used, so that the peak is little more than the larger of strips and model.
+Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets);
 
 /// One mesh at a level, as decode() gives it.
 Result<Mesh> decoded_mesh(const Level& level);

@@ -49,8 +49,24 @@ Result<LoadedFile> load_text(ByteView bytes, const LoadOptions& options) {
   return file;
 }
 
-Result<LoadedFile> parse(FileFormat format, ByteView bytes, const std::string& path,
+// Piece by piece, so that the file and what is made of it are not in memory together.
+Result<LoadedFile> load_binary(const FileBytes& file, const LoadOptions& options) {
+  constexpr std::size_t kPiece = 1 << 20;
+  const ByteView bytes = file.view();
+  BinaryParser parser(options.limits, bytes.size());
+  for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+    const auto fed = parser.feed(bytes.subspan(at, std::min(kPiece, bytes.size() - at)));
+    if (!fed) return tl::unexpected(fed.error());
+    file.forget(at + kPiece);
+  }
+  const auto missing = parser.end();
+  if (missing && !(options.allow_prefix && parser.has_base())) return tl::unexpected(*missing);
+  return loaded(FileFormat::pstrip, Result<ProgressiveStrips>(std::move(parser).take()));
+}
+
+Result<LoadedFile> parse(FileFormat format, const FileBytes& file, const std::string& path,
                          const LoadOptions& options) {
+  const ByteView bytes = file.view();
   const auto companions = companions_of(path, options.limits);
   switch (format) {
     case FileFormat::ply:
@@ -60,13 +76,12 @@ Result<LoadedFile> parse(FileFormat format, ByteView bytes, const std::string& p
     case FileFormat::gltf:
     case FileFormat::glb: {
       std::vector<std::string> notes;
-      auto file = loaded(format, read_gltf(bytes, companions, options.limits, &notes));
-      if (file) file->notes = std::move(notes);
-      return file;
+      auto out = loaded(format, read_gltf(bytes, companions, options.limits, &notes));
+      if (out) out->notes = std::move(notes);
+      return out;
     }
     case FileFormat::pstrip:
-      return loaded(format, read_binary(bytes, options.limits,
-                                        options.allow_prefix ? ReadMode::prefix : ReadMode::whole));
+      return load_binary(file, options);
     case FileFormat::pstripx:
       return loaded(format, read_xml(bytes, options.limits));
     case FileFormat::pm:
@@ -180,15 +195,17 @@ std::optional<FileFormat> detect_format(ByteView bytes, std::string_view path) {
 
 Result<Model> LoadedFile::model(const LevelChoice& choice) && {
   if (auto* model = std::get_if<Model>(&content)) return std::move(*model);
-  const auto& strips = std::get<ProgressiveStrips>(content);
-  return decode(strips, packets_for(strips, choice));
+  ProgressiveStrips strips = std::move(std::get<ProgressiveStrips>(content));
+  content = Model{};
+  const std::size_t packets = packets_for(strips, choice);
+  return decode(std::move(strips), packets);
 }
 
 Result<LoadedFile> load(const FileBytes& file, const std::string& path,
                         const LoadOptions& options) {
   const auto format = detect_format(file.view(), path);
   if (!format) return fail(ErrorCode::unsupported, "is none of the known formats", kNoOffset, path);
-  auto out = parse(*format, file.view(), path, options);
+  auto out = parse(*format, file, path, options);
   if (out) out->bytes = file.view().size();
   return out;
 }

@@ -140,6 +140,12 @@ FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
   return *this;
 }
 
+void FileBytes::forget(std::size_t size) const {
+  if (!mapping_) return;
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  (void)::madvise(mapping_, size / page * page, MADV_DONTNEED);
+}
+
 FileBytes::~FileBytes() {
   if (mapping_) ::munmap(mapping_, view_.size());
 }

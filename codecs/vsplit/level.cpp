@@ -24,6 +24,8 @@ Triangles triangles_of(const Level& level) {
   const std::span<const Index> map = level.resolved();
   const auto vertex_of = [&](Index w) { return level.vertex_of(w); };
   const bool grouped = mesh.groups.size() > 1;
+  if (level.vertex_count() == mesh.vertices)
+    out.corners.reserve(std::min<std::size_t>(mesh.triangles, map.size()) * 3);
   std::size_t first = 0;
   for (std::size_t g = 0; g < mesh.group_entries.size(); ++g) {
     for_each_triangle(map.subspan(first, mesh.group_entries[g]), vertex_of,
@@ -112,12 +114,28 @@ void Level::refine(Index vsplits) {
           position_bytes,
           moved_positions_.begin() + static_cast<std::ptrdiff_t>(split.parent * position_bytes));
   }
+  if (!map_.empty() && !follows_chains()) {
+    auto resolved = resolve(map_);  // records write wedges only, so that chains still end
+    assert(resolved);
+    resolved_ = std::move(resolved).value();
+  }
 }
 
 void Level::write(Index offset, Index wedge) {
   resolved_[offset] = wedge;
   if (map_.empty()) return;
   map_[offset] = wedge;
+  if (follows_chains()) follow_chains(offset, wedge);
+}
+
+// An honest file rewrites a few entries a place; one that asks for more than this is resolved as a
+// whole after each refine(). [spec/vsplit.md §3]
+bool Level::follows_chains() const {
+  constexpr std::uint64_t kEntriesAPlace = 64;
+  return followed_ <= kEntriesAPlace * (map_.size() + place_);
+}
+
+void Level::follow_chains(Index offset, Index wedge) {
   // Entries whose chains end here now stand for the new wedge too. Chains have no cycles, so each
   // is reached once.
   pending_.assign(1, offset);
@@ -129,6 +147,7 @@ void Level::write(Index offset, Index wedge) {
       if (from >= map_.size() || map_[from] != symbol_of(d)) continue;
       resolved_[from] = wedge;
       pending_.push_back(static_cast<Index>(from));
+      ++followed_;
     }
   }
 }

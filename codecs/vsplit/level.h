@@ -19,8 +19,13 @@ class Level {
   /// The base. Cost O(base and map size).
   explicit Level(const ProgressiveMesh& mesh);
 
-  /// Applies the next `vsplits` records, those the mesh has not got left out. O(what they rewrite).
+  /// Applies the next `vsplits` records, those the mesh has not got left out.
+  ///
+  /// cost  O(what they rewrite): the places and the entries whose chains end there. Hostile records
+  ///       that rewrite long chains again and again cost O(map) a call instead
   void refine(Index vsplits);
+  /// Frees what only refine() needs; it must not be called again.
+  void forget_symbols() { map_ = {}; }
   /// Up to the last record the mesh has.
   void refine_fully() { refine(kNone); }
 
@@ -52,6 +57,8 @@ class Level {
 
  private:
   void write(Index offset, Index wedge);
+  bool follows_chains() const;
+  void follow_chains(Index offset, Index wedge);
 
   const ProgressiveMesh* mesh_;
   Index next_ = 0;  // first record not yet applied
@@ -61,7 +68,8 @@ class Level {
   std::vector<Index> map_;           // with symbols; empty when there are none
   std::vector<Index> wedge_vertex_;  // empty with single wedges
   Bytes moved_positions_;            // free placement only
-  std::vector<Index> pending_;       // scratch of write()
+  std::vector<Index> pending_;       // scratch of follow_chains()
+  std::uint64_t followed_ = 0;       // entries that follow_chains() has rewritten so far
 };
 
 /// The mesh that a level shows, in decoded numbering. At the full level the faces of the face table

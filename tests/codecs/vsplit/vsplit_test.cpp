@@ -209,6 +209,29 @@ TEST(Vsplit, PolygonsLinesAndFaceAttributesComeBack) {
   }
 }
 
+// One place at the head of a long chain, rewritten by every record: following the chain each time
+// would take 10^10 steps.
+TEST(Level, LongChainsRewrittenOftenStayCheap) {
+  constexpr Index kMany = 100'000;
+  ProgressiveMesh mesh;
+  mesh.encoding = MapEncoding::offset_difference;
+  mesh.groups.resize(1);
+  mesh.base_vertices = mesh.base_wedges = 1;
+  mesh.base_map.assign(kMany, kSameAsMinus1);
+  mesh.base_map[0] = 0;
+  mesh.group_entries = {kMany};
+  for (Index v = 1; v <= kMany; ++v) {
+    mesh.vsplits.push_back({v - 1, 1, 0, 1});
+    mesh.wedge_places.push_back(1);
+    mesh.places.push_back(0);
+  }
+  mesh.position.data.resize(12 * (std::size_t{kMany} + 1));
+  Level level(mesh);
+  level.refine_fully();
+  EXPECT_EQ(level.resolved().back(), kMany);
+  EXPECT_EQ(level.resolved().front(), kMany);
+}
+
 // [Kim04 Fig. 5]: with symbols fewer entries are rewritten.
 TEST(Vsplit, SymbolsKeepEntriesOutOfTheRecords) {
   const Scenario s = random_scenario(test::grid(8), 5);
