@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
@@ -64,12 +65,29 @@ constexpr std::size_t kMaxNamed = 64;
 std::array<std::array<char, PATH_MAX>, kMaxNamed> temporary_names;
 std::array<std::atomic<bool>, kMaxNamed> temporary_used;
 
+// Signals wait while a file exists that a handler would not know of.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+  }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+  ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_;
+};
+
 class TemporaryFile {
  public:
   static Result<TemporaryFile> create(const std::filesystem::path& target) {
     std::string name = target.string() + ".XXXXXX";
     if (name.size() >= PATH_MAX)
       return fail(ErrorCode::io, "path too long", kNoOffset, target.string());
+    const SignalsHeld held;
     const int fd = ::mkstemp(name.data());
     if (fd < 0) return io_error(target, "cannot create");
     TemporaryFile file;
