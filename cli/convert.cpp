@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "cli/command.h"
@@ -47,18 +48,24 @@ bool keeps_records(const Options& options, const LoadedFile& file, FileFormat ta
 ExitCode run(const Options& options, const Streams& io) {
   const auto target = options.target.format_for(options.output);
   if (!target) return complain(io, target.error());
-  const auto encode_options = options.encode.get();
+  auto encode_options = options.encode.get();
   if (!encode_options) return complain(io, encode_options.error());
+  // A mesh made from a text record has the record's own order.
+  if (!is_progressive(*target)) encode_options->keep_order = true;
   ProgressBar bar(io);
   auto file = load(options.input, {.limits = options.limits.limits,
                                    .allow_prefix = options.prefix,
                                    .text_options = *encode_options});
   if (!file) return complain(io, file.error(), options.input);
+  if (options.level.given() && !file->is_progressive())
+    return complain(io, {ErrorCode::unsupported, "has no levels"}, options.input);
   note(io, options.input, file->notes);
 
   Result<SavedFiles> saved;
   if (keeps_records(options, *file, *target)) {
-    saved = save(std::get<ProgressiveStrips>(file->content), options.output, *target);
+    auto& strips = std::get<ProgressiveStrips>(file->content);
+    if (!strips.complete) strips = cut(strips, strips.packets.size());
+    saved = save(strips, options.output, *target);
   } else {
     auto decoded = std::move(*file).model(options.level.choice);
     if (!decoded) return complain(io, decoded.error(), options.input);

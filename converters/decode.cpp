@@ -123,13 +123,19 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets) {
 
 ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets) {
   ProgressiveStrips out = strips;
-  if (packets >= strips.packets.size()) return out;
-  out.packets.resize(packets);
-  const std::vector<Index> vsplits = vsplits_after(out, packets);
+  if (packets >= strips.packets.size() && strips.complete) return out;
+  out.complete = true;
+  out.packets.resize(std::min(packets, out.packets.size()));
+  const std::vector<Index> vsplits = vsplits_after(out, out.packets.size());
   std::vector<Packet> last = out.bases;
   for (const Packet& p : out.packets) last[p.mesh] = p;
-  for (std::size_t m = 0; m < out.meshes.size(); ++m)
-    if (vsplits[m] < out.meshes[m].vsplits.size()) cut_mesh(out.meshes[m], vsplits[m], last[m]);
+  for (std::size_t m = 0; m < out.meshes.size(); ++m) {
+    ProgressiveMesh& mesh = out.meshes[m];
+    // A file that ends early announces vertices that it does not bring.
+    if (vsplits[m] < mesh.vertices - mesh.base_vertices) cut_mesh(mesh, vsplits[m], last[m]);
+    // Or it ends after its last packet, before the faces.
+    if (mesh.faces.empty()) mesh.face_attribute_formats = {};
+  }
   // The last level of a cut file is its own full resolution, but not the original's: its error
   // stays what it is.
   return out;

@@ -33,7 +33,8 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets);
 /// One mesh at a level, as decode() gives it.
 Result<Mesh> decoded_mesh(const Level& level);
 
-/// A shorter progressive file: the first `packets` packets, complete in itself. What belongs to the
+/// A shorter progressive file: the first `packets` packets, complete in itself even if `strips` is
+/// not. What belongs to the
 /// full resolution only (order, face table, digest) is left out of the meshes that are cut.
 ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets);
 
