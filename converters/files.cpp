@@ -116,11 +116,30 @@ std::string beside(const std::string& path, const std::string& name) {
   return (std::filesystem::path(path).parent_path() / name).string();
 }
 
+// What write_ply has no words for.
+void note_ply_losses(const Scene& scene, std::vector<std::string>& notes) {
+  Material only_texture;  // as read_ply makes one from a texture's name
+  only_texture.metallic = 0;
+  const auto is_lost = [&](const Material& material) {
+    only_texture.base_color_image = material.base_color_image;
+    return material != only_texture;
+  };
+  const auto is_embedded = [](const Image& image) { return !image.data.empty(); };
+  const auto is_moved = [](const Node& node) {
+    return !node.meshes.empty() && node.matrix != Node{}.matrix;
+  };
+  if (std::ranges::any_of(scene.materials, is_lost))
+    notes.emplace_back("materials beyond a texture's name");
+  if (std::ranges::any_of(scene.images, is_embedded)) notes.emplace_back("embedded images");
+  if (std::ranges::any_of(scene.nodes, is_moved)) notes.emplace_back("node transforms");
+}
+
 Result<SavedFiles> save_ply(const Model& model, const std::string& path,
                             const SaveOptions& options) {
   std::vector<std::string> notes;
   const bool several = model.meshes.size() > 1;
   const Model one = several ? merge_meshes(model, notes) : Model{};
+  note_ply_losses(model.scene, notes);
   auto bytes = write_ply(several ? one : model,
                          {.format = options.ascii ? PlyWriteOptions::Format::ascii
                                                   : PlyWriteOptions::Format::little_endian});
