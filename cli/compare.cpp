@@ -1,5 +1,6 @@
 #include "converters/compare.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -50,37 +51,64 @@ void print_text(std::ostream& out, const Comparison& c) {
       << " (of the bounding-box diagonal)\n";
 }
 
-void print_json(std::ostream& out, const Comparison& c, const Options& options) {
-  nlohmann::ordered_json json;
+// Why there is no comparison, and of which file.
+struct Refusal {
+  std::string file;
+  Error error;
+};
+
+void print_json(std::ostream& out, const Comparison& c, const Refusal* refusal,
+                const Options& options) {
+  using Json = nlohmann::ordered_json;
+  Json json;
   json["schema"] = "pstrips-compare-1";
   json["a"] = escaped(options.a);
   json["b"] = escaped(options.b);
-  json["result"] = name_of(c.likeness);
-  json["hausdorff"] = c.hausdorff;
-  json["rms"] = c.rms;
+  json["error"] = nullptr;
+  json["result"] = nullptr;
+  json["hausdorff"] = nullptr;
+  json["rms"] = nullptr;
+  if (refusal) {
+    json["error"] = json_of<Json>(refusal->error);
+    json["error"]["file"] = escaped(refusal->file);
+  } else {
+    json["result"] = name_of(c.likeness);
+    json["hausdorff"] = c.hausdorff;
+    json["rms"] = c.rms;
+  }
   json["scenes_equal"] = c.scenes_equal;
-  json["differences"] = nlohmann::ordered_json::array();
+  json["differences"] = Json::array();
   for (const std::string& d : c.differences) json["differences"].push_back(escaped(d));
-  json["attributes"] = nlohmann::ordered_json::array();
+  json["attributes"] = Json::array();
   for (const AttributeDifference& a : c.attributes)
     json["attributes"].push_back({{"semantic", escaped(a.semantic)}, {"largest", a.largest}});
   out << json.dump(2) << "\n";
+}
+
+Result<Model> open_model(const std::string& path, const Options& options) {
+  // A text record is compared in the order in which it stands.
+  auto file = load(path, {.limits = options.limits.limits,
+                          .allow_prefix = false,
+                          .text_options = {.keep_order = true}});
+  if (!file) return tl::unexpected(file.error());
+  return std::move(*file).model(options.level.choice);
 }
 
 ExitCode run(const Options& options, const Streams& io) {
   Model models[2];
   for (int i = 0; i < 2; ++i) {
     const std::string& path = i == 0 ? options.a : options.b;
-    auto file =
-        load(path, {.limits = options.limits.limits, .allow_prefix = false, .text_options = {}});
-    if (!file) return complain(io, file.error(), path);
-    auto model = std::move(*file).model(options.level.choice);
-    if (!model) return complain(io, model.error(), path);
+    auto model = open_model(path, options);
+    if (!model) {
+      const Refusal refusal{path, model.error()};
+      if (options.format.json()) print_json(io.out, {}, &refusal, options);
+      return complain(io, refusal.error, path);
+    }
     models[i] = std::move(model).value();
   }
   const Comparison c = compare(models[0], models[1], options.samples);
   if (options.format.json())
-    print_json(io.out, c, options);
+    print_json(io.out, c, nullptr, options);
   else
     print_text(io.out, c);
   return c.likeness == Likeness::different ? kDifference : kOk;

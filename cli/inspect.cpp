@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -224,12 +225,7 @@ void print_json(std::ostream& out, const Report& r) {
   json["strips_encoding"] = r.strips_encoding;
   json["complete"] = r.complete && !r.error;
   json["error"] = nullptr;
-  if (r.error) {
-    json["error"] = {{"message", escaped(r.error->message)},
-                     {"offset", nullptr},
-                     {"path", escaped(r.error->path)}};
-    if (r.error->offset != kNoOffset) json["error"]["offset"] = r.error->offset;
-  }
+  if (r.error) json["error"] = json_of<Json>(*r.error);
   const Inspection& f = r.figures;
   json["meshes"] = r.meshes;
   json["vertices"] = f.vertices;

@@ -1,5 +1,6 @@
 #include "cli/option_groups.h"
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "codecs/stripify/stripify.h"

@@ -1,12 +1,15 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 
 #include "converters/decode.h"
 #include "converters/files.h"
 #include "core/limits.h"
+
+namespace CLI {
+class App;
+}
 
 namespace pstrip::cli {
 

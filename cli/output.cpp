@@ -32,6 +32,11 @@ std::size_t printable_sequence(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xc0) != 0x80) return 0;
   if (byte(0) == 0xc2 && byte(1) < 0xa0) return 0;  // C1 controls, which terminals obey
+  // Overlong forms, surrogates and what lies beyond U+10FFFF; JSON takes none of them.
+  if (byte(0) == 0xe0 && byte(1) < 0xa0) return 0;
+  if (byte(0) == 0xed && byte(1) > 0x9f) return 0;
+  if (byte(0) == 0xf0 && byte(1) < 0x90) return 0;
+  if (byte(0) == 0xf4 && byte(1) > 0x8f) return 0;
   return length;
 }
 
@@ -173,7 +178,8 @@ Progress ProgressBar::callback() {
 }
 
 void install_interrupt_handler() {
-  for (const int signal : kInterrupts) std::signal(signal, end_cleanly);
+  for (const int signal : kInterrupts)  // what nohup has the program ignore stays ignored
+    if (std::signal(signal, end_cleanly) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 }  // namespace pstrip::cli

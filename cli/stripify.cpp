@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -92,11 +93,13 @@ void print_text(std::ostream& out, const Figures& f, const Options& options) {
   table.print(out);
 }
 
-void print_json(std::ostream& out, const Figures& f, const Options& options) {
+void print_json(std::ostream& out, const Figures& f, const Error* error, const Options& options) {
+  using Json = nlohmann::ordered_json;
   const StripStats& s = f.stats;
-  nlohmann::ordered_json json;
+  Json json;
   json["schema"] = "pstrips-stripify-1";
   json["file"] = escaped(options.input);
+  json["error"] = error ? json_of<Json>(*error) : Json();
   json["algorithm"] = options.algorithm;
   json["triangles"] = s.triangles;
   json["strips"] = s.strips;
@@ -109,13 +112,20 @@ void print_json(std::ostream& out, const Figures& f, const Options& options) {
   out << json.dump(2) << "\n";
 }
 
-ExitCode run(const Options& options, const Streams& io) {
+Result<Model> open_model(const Options& options) {
   auto file = load(options.input,
                    {.limits = options.limits.limits, .allow_prefix = false, .text_options = {}});
-  if (!file) return complain(io, file.error(), options.input);
-  auto decoded = std::move(*file).model();
-  if (!decoded) return complain(io, decoded.error(), options.input);
-  Model model = std::move(decoded).value();
+  if (!file) return tl::unexpected(file.error());
+  return std::move(*file).model();
+}
+
+ExitCode run(const Options& options, const Streams& io) {
+  auto opened = open_model(options);
+  if (!opened) {
+    if (options.format.json()) print_json(io.out, {}, &opened.error(), options);
+    return complain(io, opened.error(), options.input);
+  }
+  Model model = std::move(opened).value();
   const Figures figures = stripify_model(model, *find_stripifier(options.algorithm));
   if (!options.output.empty()) {
     const auto target = options.target.format_for(options.output);
@@ -130,7 +140,7 @@ ExitCode run(const Options& options, const Streams& io) {
   // Figures are the result; with the mesh on standard output they would be in its way.
   std::ostream& out = options.output == "-" ? io.err : io.out;
   if (options.format.json())
-    print_json(out, figures, options);
+    print_json(out, figures, nullptr, options);
   else
     print_text(out, figures, options);
   return kOk;
