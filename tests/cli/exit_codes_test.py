@@ -1,0 +1,146 @@
+"""Exit codes and messages of every subcommand, as a script meets them."""
+
+import unittest
+
+from support import GOLDEN, ProgramTest
+
+# arguments, exit code, part of standard output, part of standard error
+CASES = [
+    # The command line.
+    ([], 1, "", "subcommand is required"),
+    (["--help"], 0, "Exit codes: 0 ok", ""),
+    (["--version"], 0, "pstrips ", ""),
+    (["no-such-command"], 1, "", "--help"),
+    *(([command, "--help"], 0, "Exit codes: 0 ok", "")
+      for command in ("convert", "validate", "inspect", "extract", "compare", "stripify")),
+    (["convert"], 1, "", "input is required"),
+    (["convert", "tube.obj"], 1, "", "output is required"),
+    (["convert", "tube.obj", "out.ply", "--no-such-option"], 1, "", "--no-such-option"),
+    (["convert", "tube.obj", "out.unknown"], 1, "", "--to"),
+    (["convert", "tube.obj", "out"], 1, "", "--to"),
+    (["convert", "tube.obj", "-"], 1, "", "--to"),
+    (["convert", "tube.obj", "out.ply", "--to", "stl"], 1, "", "--to"),
+    (["convert", "tube.obj", "out.pstrip", "--strips", "both"], 1, "", "--strips"),
+    (["convert", "tube.obj", "out.pstrip", "--stripifier", "none"], 1, "", "--stripifier"),
+    (["convert", "tube.obj", "out.pstrip", "--profile", "fancy"], 1, "", "--profile"),
+    *((["convert", "tube.obj", "out.pstrip", "--base", base], 1, "", "--base")
+      for base in ("", "%", "-1", "101%", "1.5", "ten", "5%x", "nan", "inf%")),
+    (["convert", "tube.obj", "out.pstrip", "--base", "9", "--base-error", "1"], 1, "", "--base"),
+    (["convert", "tube.obj", "out.pstrip", "--base-error", "-1"], 1, "", "--base-error"),
+    (["convert", "good.pstrip", "out.ply", "--level", "-1"], 1, "", "--level"),
+    (["convert", "good.pstrip", "out.ply", "--level", "1", "--triangles", "9"], 1, "", "excludes"),
+    (["validate"], 1, "", "no file"),
+    (["validate", "good.pstrip", "--format", "xml"], 1, "", "--format"),
+    (["validate", "good.pstrip", "--ignore", "PS9999"], 1, "", "PS9999"),
+    (["validate", "--explain", "PS9999"], 1, "", "PS9999"),
+    (["inspect"], 1, "", "input is required"),
+    (["inspect", "good.pstrip", "--format", "xml"], 1, "", "--format"),
+    (["extract", "good.pstrip"], 1, "", "output is required"),
+    (["extract", "good.pstrip", "out.ply", "--cut"], 1, "", "--cut"),
+    (["extract", "good.pstrip", "out.ply", "--triangles", "few"], 1, "", "--triangles"),
+    (["compare", "tube.obj"], 1, "", "b is required"),
+    (["compare", "tube.obj", "tube.obj", "--samples", "0"], 1, "", "--samples"),
+    (["stripify", "tube.obj", "out.pstrip"], 1, "", "convert"),
+    (["stripify", "tube.obj", "--algorithm", "none"], 1, "", "--algorithm"),
+    # Good runs.
+    (["convert", "tube.obj", "out.pstrip"], 0, "", "tube.obj ("),
+    (["validate", "good.pstrip"], 0, "good.pstrip: valid\n", ""),
+    (["inspect", "good.pstrip"], 0, "plain profile", ""),
+    (["extract", "good.pstrip", "out.ply"], 0, "", "packet "),
+    (["compare", "tube.obj", "tube.obj"], 0, "exact: ", ""),
+    (["stripify", "tube.obj"], 0, "indices sent", ""),
+    # The operating system refuses.
+    (["convert", "missing.obj", "out.ply"], 2, "", "missing.obj: cannot open"),
+    (["convert", ".", "out.ply"], 2, "", "is a folder"),
+    (["convert", "tube.obj", "missing/out.ply"], 2, "", "missing/out.ply"),
+    (["convert", "tube.obj", "tube.obj/out.ply"], 2, "", "tube.obj/out.ply"),
+    (["convert", "tube.obj", "folder.ply"], 2, "", "is a folder"),
+    (["convert", "tube.obj", "/dev/full", "--to", "ply"], 2, "", "/dev/full"),
+    (["validate", "missing.pstrip"], 2, "missing.pstrip: unreadable", "cannot open"),
+    (["inspect", "missing.pstrip"], 2, "", "missing.pstrip: cannot open"),
+    (["extract", "missing.pstrip", "out.ply"], 2, "", "missing.pstrip: cannot open"),
+    (["extract", "good.pstrip", "missing/out.ply"], 2, "", "missing/out.ply"),
+    (["compare", "tube.obj", "missing.obj"], 2, "", "missing.obj: cannot open"),
+    (["stripify", "missing.obj"], 2, "", "missing.obj: cannot open"),
+    (["stripify", "tube.obj", "missing/out.glb"], 2, "", "missing/out.glb"),
+    # Broken files.
+    *(([*command, "corrupt.ply", *rest], 3, "", "corrupt.ply: corrupt: ")
+      for command, rest in ((["convert"], ["out.obj"]), (["inspect"], []), (["stripify"], []),
+                            (["compare", "tube.obj"], []))),
+    (["validate", "corrupt.pstrip"], 3, "corrupt.pstrip: invalid, ", ""),
+    (["validate", "cut.pstrip"], 3, "cut.pstrip: truncated, ", ""),
+    (["convert", "cut.pstrip", "out.ply"], 3, "", "cut.pstrip: truncated: "),
+    (["convert", "corrupt.pstrip", "out.ply"], 3, "", "corrupt.pstrip: corrupt: "),
+    (["extract", "corrupt.pstrip", "out.ply"], 3, "", "corrupt.pstrip: corrupt: "),
+    (["convert", "empty.pstrip", "out.ply"], 3, "", "empty.pstrip: truncated: "),
+    (["convert", "tube.obj", "out.ply", "--max-vertices", "5"], 3, "", "over the limit: "),
+    (["validate", "good.pstrip", "--max-vertices", "2"], 3, "over the limit", ""),
+    # What the program does not know.
+    (["convert", "noise.bin", "out.ply"], 5, "", "unsupported: "),
+    (["inspect", "noise.bin"], 5, "", "unsupported: "),
+    (["compare", "tube.obj", "noise.bin"], 5, "", "unsupported: "),
+    (["stripify", "noise.bin"], 5, "", "unsupported: "),
+    (["extract", "tube.obj", "out.ply"], 5, "", "has no levels"),
+    (["convert", "tube.obj", "out.ply", "--level", "1"], 5, "", "has no levels"),
+    (["convert", "needs.gltf", "out.ply"], 5, "", "unsupported: "),
+    # Differences.
+    (["compare", "tube.obj", "good.pstrip"], 7, "different\n", ""),
+]
+
+CORRUPT_PLY = """ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0
+1 0 0
+0 1 0
+3 0 1 7
+"""
+
+NEEDS_GLTF = '{"asset":{"version":"2.0"},"extensionsUsed":["X_y"],"extensionsRequired":["X_y"]}'
+
+
+class ExitCodes(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write_tube()
+        golden = GOLDEN.read_bytes()
+        self.write("good.pstrip", golden)
+        self.write("cut.pstrip", golden[:-20])
+        half = len(golden) // 2
+        self.write("corrupt.pstrip", golden[:half] + bytes([golden[half] ^ 255]) + golden[half + 1:])
+        self.write("empty.pstrip", b"")
+        self.write("corrupt.ply", CORRUPT_PLY)
+        self.write("noise.bin", bytes((i * 73 + 41) % 256 for i in range(1, 500)))
+        self.write("needs.gltf", NEEDS_GLTF)
+        (self.folder / "folder.ply").mkdir()
+
+    def test_table(self):
+        before = {path.name for path in self.folder.iterdir()}
+        for arguments, code, out, err in CASES:
+            with self.subTest(arguments=arguments):
+                run = self.run_program(*arguments, code=code)
+                self.assertIn(out, run.out.decode())
+                self.assertIn(err, run.err)
+                new = {path.name for path in self.folder.iterdir()} - before
+                if code in (0, 7):
+                    self.assertLessEqual(new, {"out.pstrip", "out.ply"}, "only what was asked for")
+                else:
+                    self.assertEqual(new, set(), "a failed run leaves nothing")
+                for name in new:
+                    (self.folder / name).unlink()
+
+    def test_worst_of_several_files_decides(self):
+        run = self.run_program("validate", "good.pstrip", "cut.pstrip", "good.pstrip", code=3)
+        verdicts = [line for line in run.out.decode().splitlines() if not line.startswith(" ")]
+        self.assertEqual(verdicts, ["good.pstrip: valid", "cut.pstrip: truncated, 1 error, 0 warnings",
+                                    "good.pstrip: valid"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,147 @@
+"""How far a progressive file is refined, where its base is, and files that end early."""
+
+import csv
+import io
+import unittest
+
+from support import GOLDEN, ProgramTest, bumpy_grid
+
+
+class Levels(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("grid.obj", bumpy_grid(40))  # 3,200 triangles
+        self.run_program("convert", "-q", "grid.obj", "grid.pstrip", "--keep-order")
+        self.packets = self.report("inspect", "grid.pstrip")["packets"]
+        self.assertGreater(len(self.packets), 3)
+
+    def triangles_of(self, name):
+        return self.report("inspect", name)["triangles"]
+
+    def test_base(self):
+        for base, most in (("10%", 320), ("50", 50), ("0", 3200), ("0%", 3200), ("100%", 3200)):
+            self.run_program("convert", "-q", "grid.obj", "out.pstrip", "--base", base)
+            packets = self.report("inspect", "out.pstrip")["packets"]
+            self.assertLessEqual(packets[0]["triangles"], most)
+            self.assertEqual(packets[-1]["triangles"], 3200)
+            if base == "100%":
+                self.assertEqual(packets[0]["triangles"], 3200)
+            if base in ("10%", "50"):
+                self.assertGreater(packets[0]["triangles"], 0.8 * most)
+
+    def test_base_error(self):
+        first = []
+        for error in ("0.5", "2"):
+            self.run_program("convert", "-q", "grid.obj", "out.pstrip", "--base-error", error)
+            base = self.report("inspect", "out.pstrip")["packets"][0]
+            self.assertLessEqual(base["error"], float(error))
+            first.append(base["triangles"])
+        self.assertGreater(first[0], first[1])
+
+    def test_level(self):
+        for command in ("extract", "convert"):
+            for option in ("--level", "--packet"):
+                for packet in self.packets:
+                    self.run_program(command, "-q", "grid.pstrip", "out.ply", option,
+                                     packet["packet"])
+                    self.assertEqual(self.triangles_of("out.ply"), packet["triangles"])
+        self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--level", "999999")
+        self.assertEqual(self.likeness("grid.obj", "out.ply"), "exact")
+        self.run_program("extract", "-q", "grid.pstrip", "out.ply")
+        self.assertEqual(self.likeness("grid.obj", "out.ply"), "exact")
+
+    def test_triangles_and_error(self):
+        for packet, after in zip(self.packets, self.packets[1:]):
+            between = (packet["triangles"] + after["triangles"]) // 2
+            for most in (packet["triangles"], between):
+                self.run_program("extract", "-q", "grid.pstrip", "out.glb", "--triangles", most)
+                self.assertEqual(self.triangles_of("out.glb"), packet["triangles"])
+            # The first packet that is as good as asked for.
+            wanted = next(p for p in self.packets if p["error"] <= after["error"])
+            self.run_program("extract", "-q", "grid.pstrip", "out.obj", "--error",
+                             repr(after["error"]))
+            self.assertEqual(self.triangles_of("out.obj"), wanted["triangles"])
+        # Coarser than the base is the base.
+        self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--triangles", "0")
+        self.assertEqual(self.triangles_of("out.ply"), self.packets[0]["triangles"])
+
+    def test_compare_at_a_level(self):
+        self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--level", "1")
+        run = self.run_program("compare", "grid.pstrip", "out.ply", "--level", "1")
+        self.assertTrue(run.out.startswith(b"exact: "))
+        report = self.report("compare", "grid.pstrip", "out.ply", "--level", "2", code=7)
+        self.assertGreater(report["hausdorff"], report["rms"])
+        self.assertGreater(report["rms"], 0)
+
+    def test_cut_is_valid_and_shorter(self):
+        self.run_program("convert", "-q", "grid.pstrip", "grid.pstripx")
+        for source in ("grid.pstrip", "grid.pstripx"):
+            for packet in self.packets[:-1]:
+                for target in ("cut.pstrip", "cut.pstripx"):
+                    self.run_program("extract", "-q", "--cut", source, target, "--level",
+                                     packet["packet"])
+                    self.run_program("validate", "--warnings-as-errors", target)
+                    report = self.report("inspect", target)
+                    self.assertEqual(report["triangles"], packet["triangles"])
+                    self.assertEqual(len(report["packets"]), packet["packet"] + 1)
+                self.run_program("extract", "-q", source, "level.ply", "--level", packet["packet"])
+                self.assertEqual(self.likeness("cut.pstrip", "level.ply"), "exact")
+                self.assertEqual(self.likeness("cut.pstripx", "level.ply"), "exact")
+        # Nothing cut off is the file itself.
+        self.run_program("extract", "-q", "--cut", "grid.pstrip", "whole.pstrip")
+        self.assertEqual(self.read("whole.pstrip"), self.read("grid.pstrip"))
+
+    def test_csv_has_the_levels(self):
+        run = self.run_program("inspect", "grid.pstrip", "--format", "csv")
+        rows = list(csv.DictReader(io.StringIO(run.out.decode())))
+        self.assertEqual(len(rows), len(self.packets))
+        for row, packet in zip(rows, self.packets):
+            self.assertEqual(sorted(row), sorted(packet))
+            for key, value in packet.items():
+                self.assertAlmostEqual(float(row[key]), value, delta=1e-6 * abs(value))
+        # A level for a client: its bytes are the prefix to fetch.
+        sizes = [int(row["bytes_so_far"]) for row in rows]
+        self.assertEqual(sizes, sorted(set(sizes)))
+
+    def test_prefix_shows_the_last_whole_packet(self):
+        whole = self.read("grid.pstrip")
+        for packet, after in zip(self.packets, self.packets[1:]):
+            for size in (packet["bytes_so_far"], after["bytes_so_far"] - 1):
+                self.write("prefix.pstrip", whole[:size])
+                run = self.run_program("validate", "prefix.pstrip", code=3)
+                self.assertTrue(run.out.startswith(b"prefix.pstrip: truncated"))
+                self.run_program("convert", "-q", "prefix.pstrip", "out.ply", code=3)
+                self.assertFalse((self.folder / "out.ply").exists())
+                report = self.report("inspect", "prefix.pstrip")
+                self.assertFalse(report["complete"])
+                self.assertEqual(report["packets"][-1]["triangles"], packet["triangles"])
+                for command in (["extract"], ["convert", "--allow-prefix"]):
+                    self.run_program(*command, "-q", "prefix.pstrip", "out.ply")
+                    self.assertEqual(self.triangles_of("out.ply"), packet["triangles"])
+                    (self.folder / "out.ply").unlink()
+        run = self.run_program("extract", "prefix.pstrip", "out.ply")
+        self.assertIn("ends early", run.err)
+
+    def test_a_prefix_can_be_made_a_file_of_its_own(self):
+        whole = self.read("grid.pstrip")
+        for size in (self.packets[0]["bytes_so_far"], self.packets[2]["bytes_so_far"] + 1,
+                     self.packets[-1]["bytes_so_far"], len(whole) - 1):
+            self.write("prefix.pstrip", whole[:size])
+            self.run_program("extract", "-q", "prefix.pstrip", "level.ply")
+            for command in (["extract", "--cut"], ["convert", "--allow-prefix"]):
+                for target in ("own.pstrip", "own.pstripx"):
+                    self.run_program(*command, "-q", "prefix.pstrip", target)
+                    self.run_program("validate", "--warnings-as-errors", target)
+                    self.assertEqual(self.likeness(target, "level.ply"), "exact")
+
+    def test_every_prefix_of_the_golden_file_is_truncated(self):
+        golden = GOLDEN.read_bytes()
+        sizes = range(0, len(golden), 7)
+        names = [self.write(f"{size}.pstrip", golden[:size]).name for size in sizes]
+        run = self.run_program("validate", *names, code=3)
+        verdicts = [line for line in run.out.decode().splitlines() if not line.startswith(" ")]
+        self.assertEqual(verdicts, [f"{n}: truncated, 1 error, 0 warnings" for n in names])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,203 @@
+"""Reports: JSON that keeps to its schema whatever the file is, and the options of validate."""
+
+import random
+import struct
+import unittest
+import zlib
+
+from support import GOLDEN, GOLDEN_XML, ProgramTest, Run
+
+COMMANDS = ("validate", "inspect", "stripify", "compare")
+# Overlong, a surrogate, beyond Unicode, and never a byte of UTF-8.
+BROKEN_NAME = b"b\xe0\x80\x80\xed\xa0\x80\xf4\x90\x80\x80\xff.obj".decode(errors="surrogateescape")
+
+
+def with_latin_name(golden):
+    """The golden file with a mesh name that is not UTF-8, its checksum mended."""
+    chunk = golden.index(b"MESH")
+    size = struct.unpack_from("<I", golden, chunk + 4)[0]
+    end = chunk + 8 + (size + 3) // 4 * 4
+    changed = golden[chunk:end].replace(b"roof", b"r\xf6of")
+    return golden[:chunk] + changed + struct.pack("<I", zlib.crc32(changed)) + golden[end + 4:]
+
+
+def with_wrong_counts(golden):
+    """The golden XML file with five errors: counts of both levels, and an error that rises."""
+    text = golden.decode()
+    text = text.replace('triangles="2" strips="1" error="0.25"', 'triangles="1" strips="2" error="0.25"')
+    return text.replace('triangles="4" strips="2" error="0"', 'triangles="3" strips="1" error="1"')
+
+
+class Reports(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write_tube()
+        self.golden = self.write("good.pstrip", GOLDEN.read_bytes()).read_bytes()
+        self.write("good.pstripx", GOLDEN_XML.read_bytes())
+
+    def all_reports(self, name):
+        """Every command's report on a file, as far as its exit code promises one."""
+        found = {}
+        for command in COMMANDS:
+            others = ["tube.obj"] if command == "compare" else []
+            found[command] = self.any_report(command, name, *others)
+        return found
+
+    def any_report(self, command, *arguments):
+        code = Run((command, "--format", "json", *arguments), self.folder).code
+        self.assertIn(code, (0, 2, 3, 5, 7), (command, arguments))
+        return code, self.report(command, *arguments, code=code)
+
+    def test_good_files(self):
+        for name in ("good.pstrip", "good.pstripx"):
+            reports = self.all_reports(name)
+            self.assertEqual([code for code, _ in reports.values()], [0, 0, 0, 7])
+            inspection = reports["inspect"][1]
+            self.assertEqual(inspection["format"], name.split(".")[1])
+            self.assertEqual(inspection["profile"], "plain")
+            self.assertIsNone(inspection["error"])
+            self.assertEqual(reports["validate"][1]["issues"], [])
+            self.assertTrue(reports["validate"][1]["valid"])
+        parts = self.report("inspect", "good.pstrip")["parts"]
+        self.assertEqual(sum(p["bytes"] for p in parts.values()), len(self.golden))
+        self.assertEqual(self.report("compare", "tube.obj", "tube.obj")["result"], "exact")
+        self.assertEqual(self.report("compare", "good.pstrip", "good.pstripx")["result"], "exact")
+
+    def test_models(self):
+        for target in ("ply", "obj", "gltf", "glb", "pm"):
+            self.run_program("convert", "-q", "tube.obj", f"out.{target}")
+            reports = self.all_reports(f"out.{target}")
+            self.assertEqual(reports["inspect"][1]["triangles"], 352)
+            self.assertEqual(reports["stripify"][1]["triangles"], 352)
+            self.assertFalse(reports["validate"][1]["valid"])
+
+    def test_broken_files(self):
+        noise = random.Random(7)
+        self.run_program("convert", "-q", "tube.obj", "out.ply")
+        self.run_program("convert", "-q", "tube.obj", "out.glb")
+        ply, glb, xml = self.read("out.ply"), self.read("out.glb"), GOLDEN_XML.read_bytes()
+        flipped = bytearray(self.golden)
+        flipped[len(flipped) // 2] ^= 0x55
+        files = {"random.pstrip": noise.randbytes(3000), "random": noise.randbytes(3000),
+                 "empty": b"", "empty.ply": b"", "flipped.pstrip": bytes(flipped),
+                 "cut.pstrip": self.golden[:-9], "short.pstrip": self.golden[:40],
+                 "longer.pstrip": self.golden + b"more", "cut.pstripx": xml[:-9],
+                 "odd.pstripx": xml.replace(b"<base", b"<b\x01se"), "cut.glb": glb[:-9],
+                 "cut.ply": ply[:-9], "corrupt.ply": ply.replace(b"float x", b"flout x"),
+                 "corrupt.obj": b"v 0 0 0\nf 1 2 3\n", "cut.gltf": b'{"asset":{"version":"2',
+                 "control.obj": b"v \x1b[2J\xff\xfe 0\n", BROKEN_NAME: b"v 0 0 x\n"}
+        for name, content in files.items():
+            self.write(name, content)
+            with self.subTest(name=name):
+                reports = self.all_reports(name)
+                self.assertFalse(reports["validate"][1]["valid"])
+                self.assertIn(reports["validate"][0], (3, 5))
+                for command in ("inspect", "stripify", "compare"):
+                    code, report = reports[command]
+                    if (command, name) == ("inspect", "cut.pstrip"):
+                        self.assertEqual((code, report["complete"]), (0, False))
+                        continue
+                    self.assertIn(code, (3, 5))
+                    self.assertNotEqual(report["error"]["message"], "")
+                self.assertIsNone(reports["compare"][1]["result"])
+        for command in COMMANDS:
+            names = ["missing"] * (2 if command == "compare" else 1)
+            self.assertEqual(self.any_report(command, *names)[0], 2)
+
+    def test_flipped_bytes(self):
+        noise = random.Random(11)
+        for _ in range(25):
+            changed = bytearray(self.golden)
+            for _ in range(noise.randrange(1, 4)):
+                changed[noise.randrange(len(changed))] ^= 1 << noise.randrange(8)
+            self.write("changed.pstrip", bytes(changed))
+            code, report = self.any_report("validate", "changed.pstrip")
+            self.assertIn(code, (3, 5))
+            self.assertTrue(report["issues"])
+
+    def test_several_files_in_one_report(self):
+        self.write("cut.pstrip", self.golden[:-9])
+        report = self.report("validate", "good.pstrip", "cut.pstrip", "missing.pstrip", code=3)
+        self.assertEqual([f["verdict"] for f in report["files"]],
+                         ["valid", "truncated", "unreadable"])
+        self.assertEqual({i["file"] for i in report["issues"]}, {"cut.pstrip"})
+        self.assertFalse(report["valid"])
+
+
+class Validate(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        golden = GOLDEN.read_bytes()
+        self.write("good.pstrip", golden)
+        # One fault the checksum finds, and what follows from it.
+        half = len(golden) // 2
+        self.write("bad.pstrip", golden[:half] + bytes([golden[half] ^ 255]) + golden[half + 1:])
+        self.write("cut.pstrip", golden[:-9])
+
+    def test_explain(self):
+        for code in sorted({i["code"] for name in ("bad.pstrip", "cut.pstrip")
+                            for i in self.report("validate", name, code=3)["issues"]}):
+            lines = self.run_program("validate", "--explain", code).out.decode().splitlines()
+            self.assertTrue(lines[0].startswith(f"{code} (error): "))
+            self.assertTrue(any("spec/" in line for line in lines), lines)
+
+    def test_ignore(self):
+        codes = sorted({i["code"] for i in self.report("validate", "bad.pstrip", code=3)["issues"]})
+        self.assertIn("PS1006", codes)
+        for arguments in (["--ignore", ",".join(codes)], [a for c in codes for a in ("--ignore", c)]):
+            report = self.report("validate", "bad.pstrip", *arguments)
+            self.assertEqual(report["issues"], [])
+            self.assertTrue(report["valid"])
+        self.report("validate", "cut.pstrip", "--ignore", "PS1006", code=3)
+
+    def test_max_issues(self):
+        self.write("many.pstripx", with_wrong_counts(GOLDEN_XML.read_bytes()))
+        every = self.report("validate", "many.pstripx", "--max-issues", "1000", code=3)
+        count = len(every["issues"])
+        self.assertEqual(count, 5)
+        for most in range(count + 1):
+            report = self.report("validate", "many.pstripx", "--max-issues", str(most), code=3)
+            self.assertEqual(report["issues"], every["issues"][:most])
+            self.assertEqual(report["files"][0]["dropped"], count - most)
+        text = self.run_program("validate", "many.pstripx", "--max-issues", "1", code=3).out.decode()
+        self.assertIn(f"  and {count - 1} more\n", text)
+        self.assertEqual(text.count("["), 1)
+
+    def test_warnings_as_errors(self):
+        self.write("latin.pstrip", with_latin_name(GOLDEN.read_bytes()))
+        report = self.report("validate", "latin.pstrip")
+        self.assertEqual([i["severity"] for i in report["issues"]], ["warning"])
+        self.assertTrue(report["valid"])
+        report = self.report("validate", "latin.pstrip", "--warnings-as-errors", code=3)
+        self.assertFalse(report["valid"])
+
+
+class Stripify(ProgramTest):
+    def test_figures(self):
+        self.write_tube()
+        for algorithm in ("sgi-strips", "sgi-vertices"):
+            figures = self.report("stripify", "tube.obj", "--algorithm", algorithm)
+            self.assertEqual(figures["algorithm"], algorithm)
+            self.assertEqual(figures["triangles"], 352)
+            # Two indices a strip beside one a triangle, one more a swap, restarts between.
+            self.assertEqual(figures["indices_sent"], figures["triangles"] + 2 * figures["strips"] +
+                             figures["swaps"] + figures["strips"] - 1)
+            self.assertLessEqual(figures["singletons"], figures["strips"])
+            self.assertGreater(figures["acmr16"], 0.5)
+            self.assertLess(figures["acmr16"], 3)
+            self.assertGreaterEqual(figures["milliseconds"], 0)
+            text = self.run_program("stripify", "tube.obj", "--algorithm", algorithm).out.decode()
+            self.assertIn(f"tube.obj: {algorithm}\n", text)
+
+    def test_output_is_the_model_in_strip_order(self):
+        self.write_tube()
+        for target in ("out.obj", "out.gltf", "out.glb"):
+            self.run_program("stripify", "tube.obj", target)
+            self.assertEqual(self.likeness("tube.obj", target), "reordered", target)
+        run = self.run_program("stripify", "tube.obj", "-", "--to", "glb")
+        self.assertTrue(run.out.startswith(b"glTF"))
+        self.assertIn("indices sent", run.err)
+
+
+if __name__ == "__main__":
+    unittest.main()

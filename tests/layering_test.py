@@ -1,0 +1,80 @@
+"""Who may include whom, and which folder a third-party header belongs to."""
+
+import pathlib
+import re
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[1]
+
+MAY_INCLUDE = {
+    "core": {"core"},
+    "codecs": {"core", "codecs"},
+    "formats": {"core", "formats"},
+    "converters": {"core", "codecs", "formats", "converters"},
+    "validators": {"core", "codecs", "formats", "validators"},
+    "cli": {"core", "codecs", "formats", "converters", "validators", "cli"},
+}
+
+# The folders whose .cpp files may include a library's headers: one, but for the libraries that read
+# numbers and JSON wherever that is done.
+THIRD_PARTY = {
+    "CLI/": {"cli"},
+    "fast_float/": {"formats/obj", "formats/ply"},
+    "fmt/": {"cli"},
+    "nlohmann/": {"cli", "formats/gltf"},
+    "openssl/": {"formats/pstrip"},
+    "tiny_gltf.h": {"formats/gltf"},
+    "tinyxml2.h": {"formats/pstrip"},
+    "zlib.h": {"formats/pstrip"},
+}
+# Headers that cannot do without.
+IN_HEADERS = {("core/result.h", "tl/")}
+
+SYSTEM = {"fcntl.h", "unistd.h", "sys/mman.h", "sys/stat.h"}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+
+
+def includes():
+    """(file, quoted path or "", bracketed path or "") of the product's sources."""
+    for folder in MAY_INCLUDE:
+        for path in sorted((SOURCE / folder).rglob("*")):
+            if path.suffix in (".h", ".cpp"):
+                for quoted, bracketed in INCLUDE.findall(path.read_text()):
+                    yield path.relative_to(SOURCE).as_posix(), quoted, bracketed
+
+
+class Layering(unittest.TestCase):
+    def test_there_is_something_to_check(self):
+        folders = {file.split("/")[0] for file, _, _ in includes()}
+        self.assertEqual(folders, set(MAY_INCLUDE))
+
+    def test_our_headers_point_down(self):
+        for file, quoted, _ in includes():
+            if not quoted:
+                continue
+            with self.subTest(file=file, includes=quoted):
+                self.assertTrue((SOURCE / quoted).is_file(), "is not a path from the root")
+                self.assertIn(quoted.split("/")[0], MAY_INCLUDE[file.split("/")[0]])
+
+    def test_a_format_does_not_know_another(self):
+        for file, quoted, _ in includes():
+            if file.startswith("formats/") and quoted.startswith("formats/"):
+                self.assertEqual(file.split("/")[1], quoted.split("/")[1], file)
+
+    def test_third_party_headers_stay_in_their_folder(self):
+        for file, _, bracketed in includes():
+            # The standard library has neither folders nor extensions.
+            if not bracketed or bracketed in SYSTEM or not re.search(r"[/.]", bracketed):
+                continue
+            library = bracketed.split("/")[0] + "/" if "/" in bracketed else bracketed
+            if (file, library) in IN_HEADERS:
+                continue
+            with self.subTest(file=file, includes=bracketed):
+                self.assertTrue(file.endswith(".cpp"), "a header of ours")
+                folder = file.rsplit("/", 1)[0]
+                self.assertIn(folder, THIRD_PARTY.get(library, ()))
+
+
+if __name__ == "__main__":
+    unittest.main()
