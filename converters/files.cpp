@@ -90,8 +90,15 @@ Result<LoadedFile> parse(FileFormat format, const FileBytes& file, const std::st
   return fail(ErrorCode::bad_argument, "no such format");
 }
 
-std::string stem_of(const std::string& path) {
-  return path == "-" ? std::string("model") : std::filesystem::path(path).stem().string();
+// What companions of an output are called. A name that a reader would take for a scheme, a folder
+// or the end of a line gets underscores.
+std::string companion_stem(const std::string& path) {
+  if (path == "-") return "model";
+  std::string stem = std::filesystem::path(path).stem().string();
+  std::ranges::replace_if(
+      stem, [](unsigned char c) { return c < 0x20 || c == 0x7f || c == ':' || c == '\\'; }, '_');
+  if (stem.starts_with(' ')) stem.front() = '_';
+  return stem;
 }
 
 struct Pending {
@@ -150,7 +157,7 @@ Result<SavedFiles> save_ply(const Model& model, const std::string& path,
 }
 
 Result<SavedFiles> save_obj(const Model& model, const std::string& path) {
-  auto written = write_obj(model, path == "-" ? std::string() : stem_of(path) + ".mtl");
+  auto written = write_obj(model, path == "-" ? std::string() : companion_stem(path) + ".mtl");
   if (!written) return tl::unexpected(written.error());
   std::vector<Pending> files;
   files.push_back({path, std::move(written->obj)});
@@ -165,7 +172,7 @@ Result<SavedFiles> save_gltf(const Model& model, const std::string& path, FileFo
       model, {.binary = format == FileFormat::glb,
               .topology = options.strips ? GltfTopology::strips : GltfTopology::triangles,
               .embed = path == "-",
-              .buffer_name = stem_of(path) + ".bin"});
+              .buffer_name = companion_stem(path) + ".bin"});
   if (!written) return tl::unexpected(written.error());
   std::vector<Pending> files;
   files.push_back({path, std::move(written->main)});

@@ -106,6 +106,15 @@ class Formats(ProgramTest):
                     run = self.run_program("validate", "-", stdin=to_pipe.out)
                     self.assertEqual(run.out, b"-: valid\n")
 
+    def test_names_that_companions_cannot_have(self):
+        self.write_tube()
+        for name in ("my model", " lead", "trail ", "100%25 é", "a#b?c", "a:b", "back\\slash",
+                     "new\nline", 'q"uote', "semi;colon", "bad\udcff", "-dash", "~home", ".hidden"):
+            for target in ("obj", "gltf"):
+                output = f"./{name}.{target}"
+                self.run_program("convert", "-q", "tube.obj", output)
+                self.assertEqual(self.likeness("tube.obj", output), "exact", output)
+
     def test_two_runs_give_the_same_bytes(self):
         self.write_tube(rings=30, around=40)
         for target in FORMATS:
