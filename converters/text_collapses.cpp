@@ -62,13 +62,27 @@ class Replay {
   std::vector<Index> target_;                   // of the wedges of one collapse
 };
 
+/// Whether each vertex stands in a triangle that strips can show.
+std::vector<bool> drawn_vertices(const Mesh& mesh) {
+  std::vector<bool> out(mesh.vertex_count(), false);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::span<const Index> face = mesh.face(f);
+    const Index a = mesh.vertex_of(face[0]), b = mesh.vertex_of(face[1]),
+                c = mesh.vertex_of(face[2]);
+    if (a != b && b != c && a != c) out[a] = out[b] = out[c] = true;
+  }
+  return out;
+}
+
 }  // namespace
 
 CollapseSequence collapses_of(const TextProgressive& text) {
   CollapseSequence out;
+  const std::vector<bool> drawn = drawn_vertices(text.mesh);
   Replay replay(text.mesh);
   for (const TextCollapse& c : text.collapses)
-    if (c.kept != kNone) replay.collapse(c.removed, c.kept, out);
+    if (c.kept != kNone && drawn[c.removed] && drawn[c.kept])
+      replay.collapse(c.removed, c.kept, out);
   return out;
 }
 
