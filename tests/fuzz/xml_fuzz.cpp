@@ -1,0 +1,72 @@
+// What the XML reader accepts keeps `check`, and comes back the same through XML and through the
+// binary variant. What the validator passes, the reader accepts.
+
+#include "formats/pstrip/binary.h"
+#include "formats/pstrip/check.h"
+#include "formats/pstrip/xml.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/support/progressive.h"
+#include "validators/validate.h"
+
+using namespace pstrip;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const ByteView document = fuzz::as_file(data, size);
+  const Report report = validate(document, {.limits = fuzz::kLimits, .ignore = {}});
+  const auto strips = read_xml(document, fuzz::kLimits);
+  if (report.errors() == 0 && looks_like_xml(document)) FUZZ_CHECK(strips);
+  if (!strips) return 0;
+  FUZZ_CHECK(strips->complete);
+  FUZZ_CHECK(check(*strips));
+  const auto again = read_xml(write_xml(*strips));
+  FUZZ_CHECK(again);
+  FUZZ_CHECK(*again == *strips);
+  const auto binary = write_binary(*strips);
+  FUZZ_CHECK(binary);
+  const auto from_binary = read_binary(*binary);
+  FUZZ_CHECK(from_binary);
+  FUZZ_CHECK(*from_binary == *strips);
+  return 0;
+}
+
+fuzz::Target pstrip::fuzz::target() {
+  Target out{.extensions = {".pstripx"},
+             .words = {"<",
+                       ">",
+                       "/>",
+                       "</",
+                       "<!--",
+                       "-->",
+                       "<![CDATA[",
+                       "]]>",
+                       "&amp;",
+                       "&#65;",
+                       "&#0;",
+                       "\\00",
+                       "\\",
+                       "\"",
+                       " ",
+                       "<vsplit",
+                       "<mesh",
+                       "<packet",
+                       "<base>",
+                       "| ",
+                       "R-1 ",
+                       "R+2 ",
+                       "NaN",
+                       "INF",
+                       "nan:0x7fc00001",
+                       "<?xml",
+                       "\xef\xbb\xbf",
+                       "parent=",
+                       "AAAA",
+                       "=",
+                       "naive",
+                       "offset-difference",
+                       "f64",
+                       "u8"},
+             .seeds = {}};
+  for (std::uint32_t seed = 0; seed < 12; ++seed)
+    out.seeds.push_back(write_xml(test::random_progressive_of_any_kind(seed)));
+  return out;
+}
