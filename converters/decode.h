@@ -22,7 +22,8 @@ std::size_t packets_for(const ProgressiveStrips& strips, const LevelChoice& choi
 /// The model after `packets` packets of the file, with original order, polygons and face attributes
 /// where a mesh is fully refined and the file has them.
 ///
-/// errors  corrupt when a full mesh shows other triangles than the file announced
+/// errors  corrupt when a vertex has no wedge or a full mesh shows other triangles than the file
+///         announced
 /// cost    O(decoded size); precondition as for Level
 Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets);
 Result<Model> decode(const ProgressiveStrips& strips);

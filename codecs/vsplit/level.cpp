@@ -166,8 +166,12 @@ Result<Mesh> mesh_of(const Level& level) {
   const ByteView positions = level.positions();
   mesh.position.data.assign(positions.begin(), positions.end());
   if (!from.single_wedges) {
-    mesh.wedge_vertex.resize(level.wedge_count());
-    for (Index w = 0; w < level.wedge_count(); ++w) mesh.wedge_vertex[w] = level.vertex_of(w);
+    const std::span<const Index> vertices = level.wedge_vertices();
+    mesh.wedge_vertex.assign(vertices.begin(), vertices.end());
+    std::vector<bool> has_wedge(level.vertex_count(), false);
+    for (const Index v : vertices) has_wedge[v] = true;
+    if (std::ranges::find(has_wedge, false) != has_wedge.end())
+      return fail(ErrorCode::corrupt, "a vertex has no wedge");
   }
   for (const Attribute& a : from.wedge_attributes)
     mesh.wedge_attributes.push_back(prefix_of(a, level.wedge_count()));
