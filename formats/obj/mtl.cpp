@@ -12,7 +12,7 @@
 namespace pstrip::obj {
 namespace {
 
-/// As many numbers as there are at the start of `text`, at most three.
+/// As many finite numbers as there are at the start of `text`, at most three.
 struct Numbers {
   std::array<double, 3> value{};
   std::size_t count = 0;
@@ -24,6 +24,7 @@ Numbers parse_numbers(std::string_view text) {
     const std::string_view word = next_word(text);
     Number number;
     if (word.empty() || !parse_number(word.data(), word.data() + word.size(), number)) break;
+    if (!std::isfinite(number.value)) break;  // no factor of a material can be that
     out.value[out.count] = number.value;
   }
   return out;

@@ -43,7 +43,7 @@ fuzz::Target pstrip::fuzz::target() {
                        "f 1/1/1 2/2/1 3/3/1\nf 2//1 4//1 3//1\nusemtl blue\ns off\nl 1 2 3\n"
                        "p 1 2\nf -4 -3 -2 -1\n"),
               as_bytes("newmtl red\nKd 1 0 0\nmap_Kd a.png\nNs 10\nd .5\nnewmtl blue\nPm .1\n"
-                       "Pr .2\nKe 0 0 1\nillum 2\n")),
+                       "Pr .2\nKe 0 0 1\nillum 2\nnewmtl odd\nPm nan\nKd 1 inf 0\n")),
           copy(
               "v 0.1 0.2 0.30000000000000004\nv 1e-3 1E5 -0\nvt 0 0\nvn 1 0 0\nvt 1 1\nvn 0 1 0\n"),
       }};

@@ -18,14 +18,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!strips) return 0;
   FUZZ_CHECK(strips->complete);
   FUZZ_CHECK(check(*strips));
-  const auto again = read_xml(write_xml(*strips));
+  const Bytes written = write_xml(*strips);
+  const auto again = read_xml(written);
   FUZZ_CHECK(again);
-  FUZZ_CHECK(*again == *strips);
+  // A NaN, which a material may have for a factor, is not equal to itself.
+  FUZZ_CHECK(*again == *strips || !(*strips == *strips));
+  FUZZ_CHECK(write_xml(*again) == written);
   const auto binary = write_binary(*strips);
   FUZZ_CHECK(binary);
   const auto from_binary = read_binary(*binary);
   FUZZ_CHECK(from_binary);
-  FUZZ_CHECK(*from_binary == *strips);
+  FUZZ_CHECK(write_xml(*from_binary) == written);
   return 0;
 }
 
