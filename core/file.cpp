@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -161,7 +162,8 @@ FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
 void FileBytes::forget(std::size_t size) const {
   if (!mapping_) return;
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  (void)::madvise(mapping_, size / page * page, MADV_DONTNEED);
+  // Only pages of the mapping itself: beyond it stand others'.
+  (void)::madvise(mapping_, std::min(size, view_.size()) / page * page, MADV_DONTNEED);
 }
 
 FileBytes::~FileBytes() {
