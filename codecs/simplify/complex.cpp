@@ -8,6 +8,9 @@
 namespace pstrip {
 namespace {
 
+// A vertex takes over two corners more than it loses when its first neighbour goes to it.
+constexpr Index kSpareCorners = 2;
+
 bool is_finite(std::span<const double> p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
@@ -16,13 +19,17 @@ bool is_finite(std::span<const double> p) {
 
 Complex::Complex(std::span<const double> positions, std::span<const Index> wedge_vertex,
                  std::span<const Index> triangles)
-    : vertices(positions.size() / 3), slot_(vertices.size()) {
+    : points(positions.size() / 3),
+      vertices(points.size()),
+      states(points.size()),
+      marks(points.size()),
+      slot_(points.size()) {
   assert(triangles.size() / 3 < kMaxCount / 4);
   // Halved, so that the extent of the largest doubles is still one.
   double low[3], high[3];
   std::fill_n(low, 3, std::numeric_limits<double>::max());
   std::fill_n(high, 3, std::numeric_limits<double>::lowest());
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
+  for (std::size_t v = 0; v < points.size(); ++v) {
     const auto p = positions.subspan(3 * v, 3);
     if (!is_finite(p)) continue;
     for (int k = 0; k < 3; ++k) {
@@ -36,15 +43,15 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
   // Two factors, since 1 / extent of a denormal extent is too large for one.
   scale[0] = std::ldexp(1.0, -exponent / 2);
   scale[1] = std::ldexp(1.0, -exponent - -exponent / 2);
-  for (std::size_t v = 0; v < vertices.size(); ++v) {
+  const auto scaled = [&](double x, int k) {
+    return static_cast<float>((x / 2 - low[k]) * scale[0] * scale[1]);
+  };
+  for (std::size_t v = 0; v < points.size(); ++v) {
     const auto p = positions.subspan(3 * v, 3);
-    if (is_finite(p)) {
-      vertices[v].x = (p[0] / 2 - low[0]) * scale[0] * scale[1];
-      vertices[v].y = (p[1] / 2 - low[1]) * scale[0] * scale[1];
-      vertices[v].z = (p[2] / 2 - low[2]) * scale[0] * scale[1];
-    } else {
-      vertices[v].error = std::numeric_limits<float>::infinity();
-    }
+    if (is_finite(p))
+      points[v].position = {scaled(p[0], 0), scaled(p[1], 1), scaled(p[2], 2)};
+    else
+      points[v].error = states[v].error = std::numeric_limits<float>::infinity();
   }
   if (extent > 0)
     diagonal = std::hypot((high[0] - low[0]) * scale[0] * scale[1],
@@ -63,6 +70,7 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
   Index first = 0;
   for (VertexRecord& v : vertices) {
     v.ring = first;
+    if (v.ring_capacity > 0) v.ring_capacity += kSpareCorners;
     first += v.ring_capacity;
   }
   pool_.resize(first);
@@ -87,9 +95,8 @@ void Complex::gather(Index vertex, Star& star) {
     spoke.previous = corner_vertex[previous(corners[i])];
     for (Index side = 0; side < 2; ++side) {
       const Index other = side == 0 ? spoke.next : spoke.previous;
-      VertexRecord& record = vertices[other];
-      if (record.mark != epoch) {
-        record.mark = epoch;
+      if (marks[other] != epoch) {
+        marks[other] = epoch;
         slot_[other] = static_cast<Index>(star.edge_buffer.size());
         star.edge_buffer.push_back({.vertex = other, .triangles = 0, .outgoing = 0});
       }
@@ -127,7 +134,7 @@ void Complex::append(Index vertex, std::span<const Index> corners) {
 
 Index Complex::new_epoch(Index how_many) {
   if (epoch_ > std::numeric_limits<Index>::max() - how_many) {
-    for (VertexRecord& v : vertices) v.mark = 0;
+    std::ranges::fill(marks, Index{0});
     epoch_ = 0;
   }
   epoch_ += how_many;

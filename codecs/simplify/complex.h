@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -37,21 +38,30 @@ struct Star {
   std::vector<StarEdge> edge_buffer;
 };
 
-/// Everything about a vertex that the inner loops need, on one cache line.
+/// What the neighbours of a vertex ask for, four on a cache line.
+struct alignas(16) VertexPoint {
+  Vec3f position;   ///< scaled to the unit box
+  float error = 0;  ///< constant term of its quadric as it counts in the order; infinite: locked
+};
+
+/// What concerns the vertex itself, on one cache line.
 struct alignas(64) VertexRecord {
-  double x = 0, y = 0, z = 0;  ///< scaled to the unit box
-  float error = 0;             ///< constant term of its quadric; infinite: locked
-  float key = 0;               ///< in the heap
-  float others = 0;            ///< bound of its edges but the one to `best`, guards aside
-  Index best = kNone;          ///< end of its cheapest edge, if known
-  Index ring = 0;              ///< first of its corners in the pool
-  Index ring_size = 0;         ///< dead triangles included
+  Quadric quadric;
+  float key = 0;        ///< in the heap
+  float others = 0;     ///< bound of its edges but the one to `best`, guards aside
+  Index best = kNone;   ///< end of its cheapest edge, if known
+  Index ring = 0;       ///< first of its corners in the pool
+  Index ring_size = 0;  ///< dead triangles included
   Index ring_capacity = 0;
-  Index mark = 0;             ///< scratch of whoever drew the last epoch
+};
+static_assert(sizeof(VertexRecord) == 64);
+
+/// The rest.
+struct VertexState {
+  float error = 0;            ///< constant term of its quadric; infinite: locked
   std::uint16_t touches = 0;  ///< changes around it since it was last looked at
   bool regular = false;       ///< each edge has two triangles of opposite direction
 };
-static_assert(sizeof(VertexRecord) == 64);
 
 /// Triangles over flat arrays with the corners of each vertex listed in one pool.
 /// A corner is 4 · triangle + its place 0, 1, 2; place 3 tells whether the triangle is dead.
@@ -61,7 +71,10 @@ class Complex {
   Complex(std::span<const double> positions, std::span<const Index> wedge_vertex,
           std::span<const Index> triangles);
 
+  std::vector<VertexPoint> points;
   std::vector<VertexRecord> vertices;
+  std::vector<VertexState> states;
+  std::vector<Index> marks;  ///< scratch of whoever drew the last epoch
   std::vector<Index> corner_vertex;
   /// A model unit is 1 / (scale[0] · scale[1]) of ours; each a power of two.
   double scale[2] = {1, 1};
@@ -74,12 +87,9 @@ class Complex {
   bool is_dead(Index corner) const { return corner_vertex[corner | 3u] != 0; }
   void kill(Index corner) { corner_vertex[corner | 3u] = 1; }
 
-  /// The vector from `from` to `to`, exact before it is rounded.
-  Vec3f offset(Index from, Index to) const {
-    const VertexRecord &f = vertices[from], &t = vertices[to];
-    return {static_cast<float>(t.x - f.x), static_cast<float>(t.y - f.y),
-            static_cast<float>(t.z - f.z)};
-  }
+  /// The vector from `from` to `to`.
+  Vec3f offset(Index from, Index to) const { return points[to].position - points[from].position; }
+  bool is_locked(Index vertex) const { return std::isinf(points[vertex].error); }
 
   /// The live corners of a vertex; forgets its dead ones.
   std::span<const Index> ring(Index vertex);
@@ -90,7 +100,7 @@ class Complex {
   /// Adds corners to the ring of a vertex. Amortized O(corners).
   void append(Index vertex, std::span<const Index> corners);
 
-  /// Marks for one purpose: v is marked with it when vertices[v].mark == epoch.
+  /// Marks for one purpose: v is marked with it when marks[v] == epoch.
   Index new_epoch(Index how_many = 1);
 
  private:

@@ -14,33 +14,23 @@ constexpr float kSeamWeight = 1;
 
 }  // namespace
 
-QuadricBuilder::QuadricBuilder(const Complex& complex, const SimplifyInput& input,
-                               WedgeTable* wedges, std::vector<Quadric>& quadrics)
-    : complex_(complex),
-      input_(input),
-      wedges_(wedges),
-      quadrics_(quadrics),
-      normals_(complex.triangle_count()) {
-  quadrics_.assign(complex.vertex_count(), {});
+QuadricBuilder::QuadricBuilder(Complex& complex, const SimplifyInput& input, WedgeTable* wedges)
+    : complex_(complex), input_(input), wedges_(wedges), normals_(complex.triangle_count()) {
   for (Index t = 0; t < complex.triangle_count(); ++t) add_face(t);
-}
-
-bool QuadricBuilder::is_locked(Index vertex) const {
-  return std::isinf(complex_.vertices[vertex].error);
 }
 
 void QuadricBuilder::add_face(Index t) {
   const Index c = 4 * t;
   const Index v[3] = {complex_.corner_vertex[c], complex_.corner_vertex[c + 1],
                       complex_.corner_vertex[c + 2]};
-  if (is_locked(v[0]) || is_locked(v[1]) || is_locked(v[2])) return;
+  if (complex_.is_locked(v[0]) || complex_.is_locked(v[1]) || complex_.is_locked(v[2])) return;
   const Vec3f e1 = complex_.offset(v[0], v[1]), e2 = complex_.offset(v[0], v[2]);
   const Vec3f n = cross(e1, e2);
   const float length = std::sqrt(dot(n, n));
   if (!(length > 0)) return;
   normals_[t] = n * (1 / length);
   const float area = length / 2;
-  for (const Index corner_v : v) quadrics_[corner_v].add_plane(normals_[t], area);
+  for (const Index corner_v : v) complex_.vertices[corner_v].quadric.add_plane(normals_[t], area);
   if (wedges_) add_attributes(c, v, e1, e2, n, area);
 }
 
@@ -60,17 +50,17 @@ void QuadricBuilder::add_attributes(Index c, const Index (&v)[3], Vec3f e1, Vec3
     const float d1 = wedges_->attribute(w[1], k) - a0, d2 = wedges_->attribute(w[2], k) - a0;
     const Vec3f gradient = {u1.x * d1 + u2.x * d2, u1.y * d1 + u2.y * d2, u1.z * d1 + u2.z * d2};
     for (int i = 0; i < 3; ++i) {
-      quadrics_[v[i]].add_plane(gradient, area);
-      quadrics_[v[i]].weight -= area;  // counted once, with the face
+      complex_.vertices[v[i]].quadric.add_plane(gradient, area);
+      complex_.vertices[v[i]].quadric.weight -= area;  // counted once, with the face
       wedges_->add_gradient(w[i], k, gradient * area);
     }
   }
 }
 
 void QuadricBuilder::add_edges(const Star& star) {
-  if (is_locked(star.vertex)) return;
+  if (complex_.is_locked(star.vertex)) return;
   for (const StarEdge& edge : star.edges)
-    if (!is_locked(edge.vertex)) add_edge(star, edge);
+    if (!complex_.is_locked(edge.vertex)) add_edge(star, edge);
 }
 
 void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge) {
@@ -85,7 +75,7 @@ void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge) {
     if (weight == 0) return;
   }
   const Vec3f along = complex_.offset(star.vertex, edge.vertex);
-  Quadric& quadric = quadrics_[star.vertex];
+  Quadric& quadric = complex_.vertices[star.vertex].quadric;
   const float length_squared = dot(along, along);
   weight *= length_squared / static_cast<float>(edge.triangles);
   for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {

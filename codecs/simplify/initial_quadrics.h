@@ -12,10 +12,9 @@ namespace pstrip {
 /// planes that hold borders, seams and folds in place. [Garland97 §3.4, §6]
 class QuadricBuilder {
  public:
-  /// Starts `quadrics` with the faces, and adds the attribute terms to `wedges`, which may be null.
-  /// All arguments must outlive the builder. Cost O(size).
-  QuadricBuilder(const Complex& complex, const SimplifyInput& input, WedgeTable* wedges,
-                 std::vector<Quadric>& quadrics);
+  /// Adds what the faces bring, and the attribute terms to `wedges`, which may be null. All
+  /// arguments must outlive the builder. Cost O(size).
+  QuadricBuilder(Complex& complex, const SimplifyInput& input, WedgeTable* wedges);
 
   /// Adds what the edges of one vertex bring to its quadric. Cost O(star).
   void add_edges(const Star& star);
@@ -27,12 +26,10 @@ class QuadricBuilder {
   void add_edge(const Star& star, const StarEdge& edge);
   float fold_weight(Index a, Index b, bool same_direction) const;
   float seam_weight(const Spoke& a, Index side_a, const Spoke& b, Index side_b) const;
-  bool is_locked(Index vertex) const;
 
-  const Complex& complex_;
+  Complex& complex_;
   const SimplifyInput& input_;
   WedgeTable* wedges_;
-  std::vector<Quadric>& quadrics_;
   std::vector<Vec3f> normals_;  // unit, or zero
 };
 

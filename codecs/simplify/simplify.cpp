@@ -45,9 +45,8 @@ constexpr std::size_t kProgressInterval = 4096;
 
 // The error of a vertex as it counts in the order. That of a large ring moves in powers of two, or
 // each collapse onto it would change the order of all its neighbours.
-float settled_error(const VertexRecord& record) {
-  if (record.ring_size <= kLargeRing) return record.error;
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(record.error) & 0xff80'0000u);
+float rounded_down(float error) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
 }
 
 enum Guard : std::uint8_t { kPasses, kBorder, kLink, kFlip };
@@ -65,6 +64,7 @@ class Simplifier {
       const double limit = options.max_error * complex_.scale[0] * complex_.scale[1];
       most_error_ = static_cast<float>(std::min(limit * limit, 1e30));
     }
+    has_extras_ = wedges_ || most_error_ < kInfinity;
   }
 
   CollapseSequence run(const Progress& progress);
@@ -72,9 +72,22 @@ class Simplifier {
  private:
   void fill_heap();
   float evaluate(Index q);
-  void price(Index q, StarEdge& edge);
-  void price_wedges(StarEdge& edge, Vec3f offset);
+  // A vertex that is to move, copied so that the compiler can keep it in registers.
+  struct Mover {
+    Quadric quadric;
+    Vec3f position;
+    float error;
+  };
+  struct Price {
+    float cost;   // by which collapses are ordered
+    float error;  // what the kept vertex takes over
+  };
+  Mover mover_of(Index q) const;
+  static Price plain_price(const Mover& mover, const VertexPoint& to);
   float plain_cost(Index q, Index p) const;
+  void price(const Mover& mover, StarEdge& edge);
+  void price_extras(const Mover& mover, StarEdge& edge);
+  void price_wedges(Vec3f offset, StarEdge& edge);
   StarEdge* next_edge(Index q, float limit);
   StarEdge* choose(Index q, float limit);
   void refuse(Index q, StarEdge& edge, Guard guard);
@@ -95,9 +108,9 @@ class Simplifier {
   const SimplifyOptions& options_;
   Complex complex_;
   std::optional<WedgeTable> wedges_;  // none when each vertex has one wedge and no attributes
-  std::vector<Quadric> quadrics_;
   std::optional<VertexHeap> heap_;
   float most_error_ = kInfinity;  // squared, in the complex's units
+  bool has_extras_ = false;       // prices need more than quadrics
 
   Star star_;
   float live_weight_ = 0;     // of the wedges that the star uses
@@ -133,24 +146,27 @@ CollapseSequence Simplifier::run(const Progress& progress) {
 }
 
 void Simplifier::gather(Index q) {
-  if (complex_.vertices[q].regular && !wedges_)
+  if (complex_.states[q].regular && !wedges_)
     complex_.gather_regular(q, star_);
   else
     complex_.gather(q, star_);
+  // A ring that was large may not be any more.
+  if (complex_.vertices[q].ring_size <= kLargeRing)
+    complex_.points[q].error = complex_.states[q].error;
 }
 
 void Simplifier::fill_heap() {
-  QuadricBuilder builder(complex_, input_, wedges_ ? &*wedges_ : nullptr, quadrics_);
+  QuadricBuilder builder(complex_, input_, wedges_ ? &*wedges_ : nullptr);
   std::vector<float> keys(complex_.vertex_count(), kInfinity);
   for (Index v = 0; v < keys.size(); ++v) {
     VertexRecord& record = complex_.vertices[v];
     complex_.gather(v, star_);
-    record.regular =
+    complex_.states[v].regular =
         star_.open_edges == 0 &&
         std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
     builder.add_edges(star_);
     // No vertex has an error yet, so the other ends need not be complete.
-    if (record.error < kInfinity) keys[v] = evaluate(v);
+    if (!complex_.is_locked(v)) keys[v] = evaluate(v);
     record.key = keys[v];
   }
   heap_.emplace(keys);
@@ -169,38 +185,60 @@ float Simplifier::evaluate(Index q) {
       live_weight_ += wedges_->weight(wedge);
     }
   }
-  float least = kInfinity;
-  record.others = kInfinity;
-  record.best = kNone;
+  const Mover mover = mover_of(q);
+  float least = kInfinity, others = kInfinity;
+  Index best = kNone;
   for (StarEdge& edge : star_.edges) {
-    price(q, edge);
+    price(mover, edge);
     if (edge.cost < least) {
-      record.others = least;
-      record.best = edge.vertex;
+      others = least;
+      best = edge.vertex;
       least = edge.cost;
-    } else if (edge.cost < record.others) {
-      record.others = edge.cost;
+    } else {
+      others = std::min(others, edge.cost);
     }
   }
-  // With wedges, cost() of one edge does not tell whether the others are still dearer.
-  if (wedges_) record.best = kNone, record.others = least;
-  record.touches = 0;
+  // With wedges, plain_cost() of one edge does not tell whether the others are still dearer.
+  record.best = wedges_ ? kNone : best;
+  record.others = wedges_ ? least : others;
+  complex_.states[q].touches = 0;
   return least;
 }
 
-void Simplifier::price(Index q, StarEdge& edge) {
-  const VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[edge.vertex];
-  const Vec3f offset = complex_.offset(q, edge.vertex);
-  edge.error = from.error + quadrics_[q].at(offset);
-  edge.cost = kLengthShare * quadrics_[q].weight * dot(offset, offset);
-  if (wedges_) price_wedges(edge, offset);
-  edge.error = std::max(edge.error, 0.f);
-  edge.cost += edge.error + kKeptShare * settled_error(to);
-  const float limit = most_error_ * (quadrics_[q].weight + quadrics_[edge.vertex].weight);
-  if (!(edge.cost < kInfinity) || edge.error + to.error > limit) edge.cost = kInfinity;
+Simplifier::Mover Simplifier::mover_of(Index q) const {
+  const VertexRecord& record = complex_.vertices[q];
+  const VertexPoint& point = complex_.points[q];
+  // The states are another cache line, and differ in large rings only.
+  const float error = record.ring_size > kLargeRing ? complex_.states[q].error : point.error;
+  return {record.quadric, point.position, error};
 }
 
-void Simplifier::price_wedges(StarEdge& edge, Vec3f offset) {
+// Wedges and the limit aside.
+inline Simplifier::Price Simplifier::plain_price(const Mover& mover, const VertexPoint& to) {
+  const Vec3f offset = to.position - mover.position;
+  const float error = std::max(mover.error + mover.quadric.at(offset), 0.f);
+  const float length = kLengthShare * mover.quadric.weight * dot(offset, offset);
+  return {error + length + kKeptShare * to.error, error};
+}
+
+float Simplifier::plain_cost(Index q, Index p) const {
+  return plain_price(mover_of(q), complex_.points[p]).cost;
+}
+
+inline void Simplifier::price(const Mover& mover, StarEdge& edge) {
+  const Price plain = plain_price(mover, complex_.points[edge.vertex]);
+  edge.cost = plain.cost < kInfinity ? plain.cost : kInfinity;
+  edge.error = plain.error;
+  if (has_extras_) price_extras(mover, edge);
+}
+
+void Simplifier::price_extras(const Mover& mover, StarEdge& edge) {
+  if (wedges_) price_wedges(complex_.points[edge.vertex].position - mover.position, edge);
+  const float weight = mover.quadric.weight + complex_.vertices[edge.vertex].quadric.weight;
+  if (edge.error + complex_.states[edge.vertex].error > most_error_ * weight) edge.cost = kInfinity;
+}
+
+void Simplifier::price_wedges(Vec3f offset, StarEdge& edge) {
   const auto for_each_triangle = [&](auto&& visit) {
     for (Index i = edge.first; i != kNone; i = star_.spokes[i / 2].more[i % 2]) {
       const Index corner = star_.spokes[i / 2].corner;
@@ -209,27 +247,21 @@ void Simplifier::price_wedges(StarEdge& edge, Vec3f offset) {
   };
   wedges_->new_epoch();
   for_each_triangle([&](Index from, Index to) { wedges_->mark_first(from, to); });
-  float mapped = 0;
+  float mapped = 0, error = 0, price = 0;
   for_each_triangle([&](Index from, Index to) {
     const Index wedge = wedges_->corner_wedge[from], first = wedges_->other(wedge);
     if (first == to) {
       mapped += wedges_->weight(wedge);
-      edge.error += wedges_->cost(wedge, wedges_->corner_wedge[to], offset);
+      error += wedges_->cost(wedge, wedges_->corner_wedge[to], offset);
     } else if (wedges_->corner_wedge[first] != wedges_->corner_wedge[to]) {
-      edge.cost +=
-          wedges_->conflict(wedge, wedges_->corner_wedge[first], wedges_->corner_wedge[to]);
+      price += wedges_->conflict(wedge, wedges_->corner_wedge[first], wedges_->corner_wedge[to]);
     }
   });
-  edge.cost += kCarriedShare * std::max(0.f, live_weight_ - mapped) * dot(offset, offset);
-}
-
-// Lower bound of the cost of q's edge to p.
-float Simplifier::plain_cost(Index q, Index p) const {
-  const VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[p];
-  const Vec3f offset = complex_.offset(q, p);
-  const float length = kLengthShare * quadrics_[q].weight * dot(offset, offset);
-  return std::max(from.error + quadrics_[q].at(offset), 0.f) + length +
-         kKeptShare * settled_error(to);
+  // The other part is in the quadric: the sum is positive but for rounding.
+  error = std::max(error, -edge.error);
+  edge.error += error;
+  edge.cost +=
+      error + price + kCarriedShare * std::max(0.f, live_weight_ - mapped) * dot(offset, offset);
 }
 
 // The edge to collapse now that q is on top of the heap, all others having a key of at least
@@ -252,7 +284,7 @@ StarEdge* Simplifier::next_edge(Index q, float limit) {
   if (cost <= record.others) {
     const auto edge = std::ranges::find(star_.edges, best, &StarEdge::vertex);
     if (edge != star_.edges.end()) {
-      price(q, *edge);
+      price(mover_of(q), *edge);
       const Guard refused = edge->cost < kInfinity ? guard(q, *edge) : kPasses;
       if (refused == kPasses && edge->cost < kInfinity) return &*edge;
       evaluate(q);
@@ -302,7 +334,7 @@ void Simplifier::refuse(Index q, StarEdge& edge, Guard guard) {
   record.best = kNone;
   edge.refused = guard;
   const Vec3f offset = complex_.offset(q, edge.vertex);
-  edge.cost += kForcedShare * quadrics_[q].weight * dot(offset, offset);
+  edge.cost += kForcedShare * record.quadric.weight * dot(offset, offset);
 }
 
 Guard Simplifier::guard(Index q, const StarEdge& edge) {
@@ -320,25 +352,25 @@ bool Simplifier::breaks_border(const StarEdge& edge) const {
 // Link condition: what p and q both neighbour is on a triangle with both, and no two faces become
 // one. Not told apart in time counts as broken.
 bool Simplifier::breaks_link(Index p) {
-  std::vector<VertexRecord>& vertices = complex_.vertices;
+  std::vector<Index>& marks = complex_.marks;
   const Index near = complex_.new_epoch(2), apex = near + 1;
-  const bool large = vertices[p].ring_size > kLargeRing;
+  const bool large = complex_.vertices[p].ring_size > kLargeRing;
   if (!large)
     for (const Index corner : complex_.ring(p)) {
-      vertices[complex_.corner_vertex[Complex::next(corner)]].mark = near;
-      vertices[complex_.corner_vertex[Complex::previous(corner)]].mark = near;
+      marks[complex_.corner_vertex[Complex::next(corner)]] = near;
+      marks[complex_.corner_vertex[Complex::previous(corner)]] = near;
     }
   for (const Spoke& spoke : star_.spokes) {
-    if (spoke.next == p) vertices[spoke.previous].mark = apex;
-    if (spoke.previous == p) vertices[spoke.next].mark = apex;
+    if (spoke.next == p) marks[spoke.previous] = apex;
+    if (spoke.previous == p) marks[spoke.next] = apex;
   }
   for (const Spoke& spoke : star_.spokes) {
     if (spoke.next == p || spoke.previous == p) continue;
     int apexes = 0;
     for (const Index x : {spoke.next, spoke.previous}) {
-      if (vertices[x].mark == apex)
+      if (marks[x] == apex)
         ++apexes;
-      else if (large ? has_neighbour(x, p) : vertices[x].mark == near)
+      else if (large ? has_neighbour(x, p) : marks[x] == near)
         return true;
     }
     if (apexes == 2 && has_triangle(p, spoke.next, spoke.previous)) return true;
@@ -411,17 +443,19 @@ void Simplifier::collapse(Index q, const StarEdge& edge) {
     }
   }
   if (wedges_)
-    wedges_->collapse(complex_, star_, p, offset, quadrics_[q], out_.moves);
+    wedges_->collapse(complex_, star_, p, offset, from.quadric, out_.moves);
   else
     out_.moves.push_back({q, p});
   complex_.append(p, moved_);
   from.ring_size = 0;
   heap_->remove(q);
 
-  quadrics_[p].add(quadrics_[q], offset * -1);
-  to.error += edge.error;
-  const float weight = quadrics_[p].weight;
-  const float mean = weight > 0 ? std::sqrt(to.error / weight) : 0;
+  to.quadric.add(from.quadric, offset * -1);
+  VertexState& state = complex_.states[p];
+  state.error += edge.error;
+  complex_.points[p].error = to.ring_size > kLargeRing ? rounded_down(state.error) : state.error;
+  const float weight = to.quadric.weight;
+  const float mean = weight > 0 ? std::sqrt(state.error / weight) : 0;
   const double error = mean / complex_.scale[0] / complex_.scale[1];
   last_error_ = std::max(
       last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
@@ -440,10 +474,10 @@ void Simplifier::collapse(Index q, const StarEdge& edge) {
       break;
   }
   if (edge.refused != kPasses) {
-    to.regular = false;
-    for (const StarEdge& other : star_.edges) complex_.vertices[other.vertex].regular = false;
+    state.regular = false;
+    for (const StarEdge& other : star_.edges) complex_.states[other.vertex].regular = false;
   }
-  to.regular &= from.regular;
+  state.regular &= complex_.states[q].regular;
   for (const StarEdge& other : star_.edges)
     if (other.vertex != p) touch(other.vertex, q, p);
   renew(p);
@@ -495,10 +529,11 @@ void Simplifier::touch(Index x, Index q, Index p) {
 // may answer differently now.
 void Simplifier::reconsider(Index x) {
   VertexRecord& record = complex_.vertices[x];
-  if (!(record.others < record.key) || record.key == kInfinity) return;
-  if (record.ring_size > kLargeRing && ++record.touches < std::min(record.ring_size / 8, 0xffffu))
+  if (record.key == kInfinity || record.others >= record.key) return;
+  VertexState& state = complex_.states[x];
+  if (record.ring_size > kLargeRing && ++state.touches < std::min(record.ring_size / 8, 0xffffu))
     return;
-  record.touches = 0;
+  state.touches = 0;
   set_key(x, record.others);
 }
 
