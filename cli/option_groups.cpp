@@ -43,7 +43,40 @@ void LevelOptions::add_to(CLI::App& app) {
   for (auto* option : {packets, triangles, error}) option->group("Level of a progressive file");
 }
 
+void StripOptionsGroup::add_to(CLI::App& app) {
+  constexpr const char* kGroup = "Stripification (best)";
+  app.add_option("--goal", goal, "Fewest indices sent, or fewest strips")
+      ->check(CLI::IsMember({"indices", "strips"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--strip-effort", effort, "fast, high, max, or moves tried per triangle")
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--strip-price", price,
+                 "Indices that a strip counts for; higher gives fewer strips")
+      ->check(CLI::Range(0u, 1000u))
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+Result<StripOptions> StripOptionsGroup::get() const {
+  StripOptions out;
+  out.goal = goal == "strips" ? StripGoal::strips : StripGoal::indices;
+  out.strip_price = price;
+  if (effort == "fast" || effort == "high" || effort == "max") {
+    out.effort = effort == "fast" ? kEffortFast : effort == "high" ? kEffortHigh : kEffortMax;
+    return out;
+  }
+  const char* end = effort.data() + effort.size();
+  const auto [rest, code] = std::from_chars(effort.data(), end, out.effort);
+  if (code != std::errc{} || rest != end)
+    return fail(ErrorCode::bad_argument,
+                "--strip-effort takes fast, high, max or a number: " + effort);
+  return out;
+}
+
 void EncodeOptionsGroup::add_to(CLI::App& app) {
+  stripping.add_to(app);
   std::vector<std::string> names;
   for (const NamedStripifier& s : stripifiers()) names.emplace_back(s.name);
   constexpr const char* kGroup = "Progressive output";
@@ -74,6 +107,9 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
 Result<EncodeOptions> EncodeOptionsGroup::get() const {
   EncodeOptions out = options;
   out.encoding = strips == "naive" ? MapEncoding::naive : MapEncoding::offset_difference;
+  const auto strip_options = stripping.get();
+  if (!strip_options) return tl::unexpected(strip_options.error());
+  out.strip_options = *strip_options;
   if (base_error >= 0) {
     out.base_error = base_error;
     return out;

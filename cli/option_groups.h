@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "codecs/stripify/stripify.h"
 #include "converters/decode.h"
 #include "converters/files.h"
 #include "core/limits.h"
@@ -35,13 +36,24 @@ struct LevelOptions {
   bool given() const { return choice.packets >= 0 || choice.triangles >= 0 || choice.error >= 0; }
 };
 
-/// --strips, --stripifier, --base, --base-error, --keep-order, --profile
+/// --goal, --strip-effort, --strip-price: how hard the stripifier tries, and for what.
+struct StripOptionsGroup {
+  std::string goal = "indices";
+  std::string effort = "fast";
+  std::uint32_t price = 3;
+  void add_to(CLI::App& app);
+  /// errors  bad_argument
+  Result<StripOptions> get() const;
+};
+
+/// The options above and --strips, --stripifier, --base, --base-error, --keep-order, --profile
 struct EncodeOptionsGroup {
   EncodeOptions options;
   std::string strips = "offset";
   std::string base = "5%";
   double base_error = -1;
   std::string profile = "plain";
+  StripOptionsGroup stripping;
   void add_to(CLI::App& app);
   /// Combines what was parsed. errors: bad_argument
   Result<EncodeOptions> get() const;

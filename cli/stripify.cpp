@@ -19,7 +19,8 @@ namespace {
 
 struct Options {
   std::string input, output;
-  std::string algorithm = "sgi-strips";
+  std::string algorithm = "best";
+  StripOptionsGroup stripping;
   FormatOption format;
   TargetOption target;
   LimitOptions limits;
@@ -53,12 +54,13 @@ Mesh in_strip_order(const Mesh& mesh, const StripMap& map) {
   return out;
 }
 
-Figures stripify_model(Model& model, const NamedStripifier& algorithm) {
+Figures stripify_model(Model& model, const NamedStripifier& algorithm,
+                       const StripOptions& options) {
   Figures out;
   for (Mesh& mesh : model.meshes) {
     const Triangulation triangles = triangulate(mesh);
     const auto start = std::chrono::steady_clock::now();
-    const StripMap map = strip_mesh(mesh, triangles, algorithm.run);
+    const StripMap map = strip_mesh(mesh, triangles, algorithm.run, options);
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
     out.milliseconds += time.count();
     const StripStats stats = strip_stats(map.entries);
@@ -126,7 +128,10 @@ ExitCode run(const Options& options, const Streams& io) {
     return complain(io, opened.error(), options.input);
   }
   Model model = std::move(opened).value();
-  const Figures figures = stripify_model(model, *find_stripifier(options.algorithm));
+  const auto strip_options = options.stripping.get();
+  if (!strip_options) return complain(io, strip_options.error());
+  const Figures figures =
+      stripify_model(model, *find_stripifier(options.algorithm), *strip_options);
   if (!options.output.empty()) {
     const auto target = options.target.format_for(options.output);
     if (!target) return complain(io, target.error());
@@ -161,6 +166,7 @@ Command add_stripify(CLI::App& root) {
   app->add_option("--algorithm,--stripifier", options->algorithm, "Stripifier")
       ->check(CLI::IsMember(names))
       ->capture_default_str();
+  options->stripping.add_to(*app);
   options->target.add_to(*app);
   options->format.add_to(*app, false);
   options->limits.add_to(*app);

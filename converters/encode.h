@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "codecs/simplify/simplify.h"
+#include "codecs/stripify/stripify.h"
 #include "core/limits.h"
 #include "core/progress.h"
 #include "core/progressive_strips.h"
@@ -15,7 +16,8 @@ namespace pstrip {
 
 struct EncodeOptions {
   MapEncoding encoding = MapEncoding::offset_difference;
-  std::string stripifier = "sgi-strips";          ///< a name of stripifiers()
+  std::string stripifier = "best";  ///< a name of stripifiers()
+  StripOptions strip_options{};
   double base_share = 0.05;                       ///< of each mesh's triangles that the base keeps
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
   std::optional<double> base_error{};  ///< instead: largest distance estimate, model units
