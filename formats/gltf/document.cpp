@@ -312,7 +312,9 @@ Accessor read_accessor(const Cursor& in, std::size_t views) {
   Accessor out;
   out.type = read_component_type(in);
   read_accessor_type(in, out);
-  out.normalized = in.flag("normalized");
+  // glTF forbids the flag where it would mean nothing; it is no reason to refuse a file.
+  out.normalized =
+      in.flag("normalized") && out.type != ComponentType::f32 && out.type != ComponentType::u32;
   out.count = in.required_whole("count");
   out.view = in.reference("bufferView", views);
   out.offset = in.whole("byteOffset");

@@ -95,7 +95,9 @@ fuzz::Target pstrip::fuzz::target() {
   }
   test::Asset asset;
   asset.floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
-  asset.floats("VEC2", 3, {0, 0, 1, 0, 0, 1});
+  const int texcoords = asset.view(test::bytes_of<float>({0, 0, 1, 0, 0, 1}));
+  asset.accessor(5126, 3, "VEC2",
+                 R"(,"normalized":true,"bufferView":)" + std::to_string(texcoords));
   asset.shorts({0, 1, 2});
   out.seeds.push_back(copy(asset.json(
       R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0,)"
