@@ -32,7 +32,7 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
   for (std::size_t v = 0; v < points.size(); ++v) {
     const auto p = positions.subspan(3 * v, 3);
     if (!is_finite(p)) continue;
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], p[k] / 2);
       high[k] = std::max(high[k], p[k] / 2);
     }

@@ -50,7 +50,7 @@ class TriangleFinder {
     auto operator<=>(const Key&) const = default;
   };
   static Key key(Triple t, Index group) {
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     return {t, group, 0};
   }
 

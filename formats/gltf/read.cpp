@@ -79,7 +79,7 @@ void place_meshes(std::vector<Node>& nodes, const PrimitiveMap& map) {
     for (const auto& place : map.meshes[node.meshes.front()])
       if (place.mesh != kNone) meshes.push_back(place.mesh);
     std::ranges::sort(meshes);
-    meshes.erase(std::ranges::unique(meshes).begin(), meshes.end());
+    meshes.erase(std::unique(meshes.begin(), meshes.end()), meshes.end());
     node.meshes = std::move(meshes);
   }
 }
