@@ -163,7 +163,8 @@ class Interrupt(ProgramTest):
                 code = self.finish(process)
                 self.assertIn(code, (0, -number))
                 stopped += code != 0
-                if code == 0:  # it was faster than the signal
+                # The signal may come late: after the work, or between the rename and the exit.
+                if code == 0 or "out.pstrip" in self.files():
                     self.assertEqual(self.read("out.pstrip"), whole)
                     (self.folder / "out.pstrip").unlink()
                 self.assertEqual(self.files(), self.before)
