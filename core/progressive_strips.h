@@ -80,11 +80,11 @@ struct ProgressiveMesh {
 
   // Vertex splits, and their lists one after the other.
   std::vector<Vsplit> vsplits;
-  Bytes parent_position;            ///< with free placement: the parent's position after each split
+  Bytes parent_position;  ///< with free placement: the parent's position after each split
   /// Per new wedge, with single wedges too: how many entries it is written to.
   std::vector<Index> wedge_places;
-  std::vector<Index> places;        ///< map offsets, ascending within a wedge
-  std::vector<Index> carried;       ///< wedges taken over
+  std::vector<Index> places;   ///< map offsets, ascending within a wedge
+  std::vector<Index> carried;  ///< wedges taken over
 
   // At full resolution.
   Index vertices = 0, wedges = 0, triangles = 0, strips = 0;

@@ -75,7 +75,8 @@ class Level {
 /// The mesh that a level shows, in decoded numbering. At the full level the faces of the face table
 /// take the place of the triangles they replace.
 ///
-/// errors  corrupt, for what the readers do not look into: a vertex without a wedge, or a full level
+/// errors  corrupt, for what the readers do not look into: a vertex without a wedge, or a full
+/// level
 ///         that does not show as many triangles as the mesh says, so that its face table could not
 ///         be applied
 Result<Mesh> mesh_of(const Level& level);
