@@ -262,6 +262,7 @@ class RowReader {
 /// All rows have one size.
 void read_fixed_rows(const std::byte* from, const Element& element, std::span<const Sink> sinks,
                      std::size_t row_bytes, Swap swap) {
+  if (element.count == 0) return;  // sinks are null
   std::vector<Lane> lanes;
   for (std::size_t p = 0; p < sinks.size(); ++p) {
     const ComponentType type = element.properties[p].type;

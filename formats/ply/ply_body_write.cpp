@@ -104,6 +104,7 @@ void write_all(Rows& rows, const Element& element, std::span<const Source> sourc
 
 void write_fixed_rows(const Element& element, std::span<const Source> sources, Swap swap,
                       Bytes& out) {
+  if (element.count == 0) return;  // sources are null
   std::size_t row_bytes = 0;
   for (const Property& property : element.properties) row_bytes += size_of(property.type);
   const std::size_t start = out.size();

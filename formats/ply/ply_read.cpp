@@ -220,7 +220,7 @@ class ModelReader {
     }
     const auto component_of = [](Attribute& a, std::size_t c) -> Sink {
       return {.stored = a.type,
-              .data = a.data.data() + c * size_of(a.type),
+              .data = a.data.empty() ? nullptr : a.data.data() + c * size_of(a.type),
               .stride = a.element_bytes()};
     };
     for (std::size_t p = 0; p < e.properties.size(); ++p) {

@@ -192,7 +192,9 @@ class ModelWriter {
   bool is_whole(const Element& element) const {
     // A reader would add them to the faces.
     if (element.name == "tristrips" && mesh_ != nullptr) return false;
-    if (element.name == "edge" && mesh_ != nullptr && element.count != 0 && !bound_) return false;
+    if (element.name == "edge" && !element.properties.empty() && mesh_ != nullptr &&
+        element.count != 0 && !bound_)
+      return false;
     return std::ranges::all_of(element.properties, [&](const Property& property) {
       return property.kept != Property::kNotKept &&
              kept_.columns[property.kept].rows == element.count;
@@ -502,7 +504,7 @@ class ModelWriter {
   Source scalar_source(const Attribute& attribute, const Bytes& data, std::size_t component) const {
     return {.kind = Source::Kind::scalars,
             .stored = attribute.type,
-            .data = data.data() + component * size_of(attribute.type),
+            .data = data.empty() ? nullptr : data.data() + component * size_of(attribute.type),
             .stride = attribute.element_bytes()};
   }
 

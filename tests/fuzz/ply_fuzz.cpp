@@ -66,7 +66,10 @@ fuzz::Target pstrip::fuzz::target() {
                      "property uchar x\nproperty short y\nproperty float z\n"
                      "property list int int n\nelement tristrips 1\n"
                      "property list int int vertex_indices\nelement edge 1\nproperty int vertex1\n"
-                     "end_header\n1 1 1 2 7 1\n0 0 0 0\n1 1 1 0\n6 0 1 2 -1 1 1\n1\n")}};
+                     "end_header\n1 1 1 2 7 1\n0 0 0 0\n1 1 1 0\n6 0 1 2 -1 1 1\n1\n"),
+                copy("ply\nformat binary_little_endian 1.0\nelement vertex 0\n"
+                     "property float x\nproperty float y\nproperty float z\n"
+                     "element edge 12\nend_header\n")}};
   Model model;
   for (const Mesh& mesh : {test::cube(true), test::grid(4), test::random_soup(1, 6, 12)}) {
     model.meshes = {mesh};
