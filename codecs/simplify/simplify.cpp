@@ -279,8 +279,11 @@ StarEdge* Simplifier::next_edge(Index q, float limit) {
     set_key(q, std::min(cost, record.others));
     return nullptr;
   }
-  gather(q);
   const Index best = record.best;
+  complex_.prefetch_ring(best);
+  gather(q);
+  for (const StarEdge& edge : star_.edges) complex_.prefetch_record(edge.vertex);
+  complex_.prefetch_triangles(best);
   if (cost <= record.others) {
     const auto edge = std::ranges::find(star_.edges, best, &StarEdge::vertex);
     if (edge != star_.edges.end()) {
