@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,11 @@ class FileBytes {
 /// errors  io with the path and the system's words; over_limit beyond max_bytes
 Result<FileBytes> read_file(const std::filesystem::path& path,
                             std::uint64_t max_bytes = ~std::uint64_t{0});
+
+/// Hands a reader a file that stands beside the model: a buffer, an image, a material library. The
+/// path is plain text (not percent-encoded), relative, uses '/' and never leads out of the model's
+/// folder; the reader sees to that. A file that is not there is ErrorCode::io.
+using ReadFile = std::function<Result<Bytes>(const std::string& relative_path)>;
 
 /// A file that is to be written.
 struct OutputFile {

@@ -1,20 +1,16 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/file.h"
 #include "core/limits.h"
 #include "core/result.h"
 #include "core/scene.h"
 
 namespace pstrip {
-
-/// Hands over a file that stands beside the model. The path is percent-decoded, relative, uses '/'
-/// and never leaves the model's folder (no leading '/', no scheme, no ".." that climbs out).
-using ReadFile = std::function<Result<Bytes>(const std::string& relative_path)>;
 
 /// Reads a glTF 2.0 asset, .glb or .gltf by its first bytes. [glTF 2.0; spec/references.md]
 ///

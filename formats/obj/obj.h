@@ -1,10 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/file.h"
 #include "core/limits.h"
 #include "core/result.h"
 #include "core/scene.h"
@@ -13,11 +13,6 @@ namespace pstrip {
 
 // Wavefront OBJ and MTL [WavefrontB1, WavefrontMtl], polygonal part: v vt vn, f l p, o g s,
 // mtllib usemtl, with the vertex colours that MeshLab and others append to `v`.
-
-/// Opens a companion of the model. The name is relative, has '/' between its parts and never
-/// leads out of the model's folder. A file that is not there is ErrorCode::io; any other error
-/// ends the reading.
-using ReadFile = std::function<Result<Bytes>(const std::string& relative_name)>;
 
 /// Attributes for what a `v` or `vt` line may say beyond glTF's vocabulary.
 inline constexpr std::string_view kObjWeight = "_OBJ_WEIGHT";  ///< w of `v x y z w`, wedge
