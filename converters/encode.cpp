@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstring>
+#include <numeric>
 #include <queue>
 
 #include "codecs/stripify/stripify.h"
@@ -222,6 +223,41 @@ class Encoder {
   double share_ = 0;
 };
 
+struct JoinedWedges {
+  std::vector<Index> kept;  ///< the first wedge of each set of equal ones, ascending
+  std::vector<Index> to;    ///< for each wedge, where its set stands in `kept`
+};
+
+// Wedges are equal that stand at one vertex with the same bytes in every attribute.
+JoinedWedges join_equal_wedges(const Mesh& mesh) {
+  const auto compare = [&](Index a, Index b) {
+    if (mesh.vertex_of(a) != mesh.vertex_of(b))
+      return mesh.vertex_of(a) < mesh.vertex_of(b) ? -1 : 1;
+    for (const Attribute& attribute : mesh.wedge_attributes)
+      if (const int order = std::memcmp(attribute.element(a).data(), attribute.element(b).data(),
+                                        attribute.element_bytes()))
+        return order;
+    return 0;
+  };
+  std::vector<Index> sorted(mesh.wedge_count());
+  std::iota(sorted.begin(), sorted.end(), Index{0});
+  std::ranges::sort(sorted, [&](Index a, Index b) {
+    const int order = compare(a, b);
+    return order != 0 ? order < 0 : a < b;
+  });
+  std::vector<Index> first(sorted.size());  // of each wedge's set
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    first[sorted[i]] =
+        i > 0 && compare(sorted[i - 1], sorted[i]) == 0 ? first[sorted[i - 1]] : sorted[i];
+  JoinedWedges out;
+  out.to.resize(sorted.size());
+  for (Index w = 0; w < first.size(); ++w) {
+    if (first[w] == w) out.kept.push_back(w);
+    out.to[w] = first[w] == w ? static_cast<Index>(out.kept.size() - 1) : out.to[first[w]];
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
@@ -245,20 +281,7 @@ void keep_attributes(Model& model, const std::vector<std::string>& semantics) {
     std::erase_if(mesh.face_attributes, [&](const Attribute& a) {
       return std::ranges::find(semantics, a.semantic) == semantics.end();
     });
-    // Equal wedges of a vertex become one, in order of first appearance.
-    std::map<std::pair<Index, Bytes>, Index> seen;
-    std::vector<Index> to(mesh.wedge_count()), kept;
-    for (Index w = 0; w < mesh.wedge_count(); ++w) {
-      Bytes key;
-      for (const Attribute& a : mesh.wedge_attributes) {
-        const ByteView element = a.element(w);
-        key.insert(key.end(), element.begin(), element.end());
-      }
-      const auto [at, is_new] =
-          seen.try_emplace({mesh.vertex_of(w), std::move(key)}, static_cast<Index>(kept.size()));
-      if (is_new) kept.push_back(w);
-      to[w] = at->second;
-    }
+    const auto [kept, to] = join_equal_wedges(mesh);
     std::vector<Index> wedge_vertex(kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i) wedge_vertex[i] = mesh.vertex_of(kept[i]);
     for (Attribute& a : mesh.wedge_attributes) {
