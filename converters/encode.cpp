@@ -65,9 +65,9 @@ AttributeTable attributes_for_simplify(const Mesh& mesh) {
   return out;
 }
 
-// Triangles with the group of each, as the simplifier takes them.
 CollapseSequence choose_collapses(const Mesh& mesh, const Triangulation& triangles,
-                                  std::uint64_t target_triangles, double max_error) {
+                                  std::uint64_t target_triangles, double max_error,
+                                  const Progress& progress) {
   const std::vector<double> positions = positions_as_double(mesh);
   std::vector<Index> group;
   if (!mesh.face_group.empty())
@@ -79,7 +79,7 @@ CollapseSequence choose_collapses(const Mesh& mesh, const Triangulation& triangl
                    .group = group,
                    .attributes = attributes.values,
                    .attribute_count = attributes.count},
-                  {.target_triangles = target_triangles, .max_error = max_error});
+                  {.target_triangles = target_triangles, .max_error = max_error}, progress);
 }
 
 struct Encoded {
@@ -164,8 +164,11 @@ class Encoder {
     if (!given) {
       const bool by_error = options_.base_error.has_value();
       const double target = share_ * static_cast<double>(triangles.face.size());
-      chosen = choose_collapses(mesh, triangles, by_error ? 0 : static_cast<std::uint64_t>(target),
-                                by_error ? *options_.base_error : -1);
+      chosen = choose_collapses(
+          mesh, triangles, by_error ? 0 : static_cast<std::uint64_t>(target),
+          by_error ? *options_.base_error : -1,
+          [&](std::string_view stage, double done) { return go_on(stage, m, 0.25 + 0.5 * done); });
+      if (chosen.stop == SimplifyStop::interrupted) return interrupted();
       given = &chosen;
     }
     if (!go_on("record", m, 0.75)) return interrupted();
