@@ -25,6 +25,7 @@ class Annealer {
   Annealer(LinkedPaths& paths, const StripOptions& options)
       : paths_(paths),
         random_(options.seed),
+        stop_(options.stop),
         strip_price_(static_cast<int>(std::min(options.strip_price, 1000u))),
         budget_(std::uint64_t{options.effort} * paths.triangle_count()),
         walk_moves_(options.effort < kLongRun ? 4 : 8),
@@ -33,7 +34,7 @@ class Annealer {
 
   void run() {
     const LinkedPaths start = paths_;
-    while (moves_ < budget_) {
+    while (moves_ < budget_ && !stopped_) {
       set_temperature();
       sweep();
     }
@@ -49,6 +50,7 @@ class Annealer {
       10;  // too short to mend what a high temperature breaks
   static constexpr std::uint32_t kLongRun = 100;
   static constexpr int kQuenchMoves = 11;
+  static constexpr Index kStepsBetweenAsking = 4096;
 
   void set_temperature() {
     const std::uint64_t steps = kCooling.size() - 1 - first_step_;
@@ -69,7 +71,8 @@ class Annealer {
   }
 
   void sweep() {
-    for (Index t = 0; t < paths_.triangle_count(); ++t) {
+    for (Index t = 0; t < paths_.triangle_count() && !stopped_; ++t) {
+      if (t % kStepsBetweenAsking == 0) stopped_ = stop_ && stop_();
       for (Index k = 0; k < 3; ++k) {
         const HalfEdge h = LinkedPaths::half_edge(t, k);
         if (paths_.is_linked(h) && h < paths_.opposite(h)) try_cut(h);
@@ -133,6 +136,8 @@ class Annealer {
 
   LinkedPaths& paths_;
   Random random_;
+  const std::function<bool()>& stop_;
+  bool stopped_ = false;
   int strip_price_;
   std::uint64_t budget_;
   int walk_moves_;

@@ -16,6 +16,7 @@ class Joiner {
       : paths_(paths),
         index_(paths),
         random_(options.seed),
+        stop_(options.stop),
         moves_left_(static_cast<std::int64_t>(options.effort) * paths.triangle_count() / 2),
         place_of_(paths.triangle_count(), kNone),
         seen_(paths.triangle_count()),
@@ -27,7 +28,8 @@ class Joiner {
   void run() {
     const std::int64_t budget = moves_left_;
     std::size_t failures = 0;
-    while (moves_left_ > 0 && !ends_.empty()) {
+    for (std::size_t walks = 1; moves_left_ > 0 && !ends_.empty(); ++walks) {
+      if (walks % kWalksBetweenAsking == 0 && stop_ && stop_()) break;
       if (moves_left_ < budget * 2 / 3) max_slides_ = kMaxSlides;
       const Index t = ends_[random_.below(static_cast<Index>(ends_.size()))];
       switch (walk(t)) {
@@ -49,6 +51,7 @@ class Joiner {
  private:
   enum class Outcome { joined, failed, alone };
   static constexpr std::size_t kTriesAnEnd = 1;
+  static constexpr std::size_t kWalksBetweenAsking = 16;
   static constexpr int kMaxSlides = 300;
   static constexpr int kMaxSlidesAside = 40;  // without coming nearer
   // Scores are in eighths of a dual edge.
@@ -212,6 +215,7 @@ class Joiner {
   LinkedPaths& paths_;
   PathIndex index_;
   Random random_;
+  const std::function<bool()>& stop_;
   std::int64_t moves_left_;
   int max_slides_ = 30;
   std::vector<Index> ends_, place_of_;  // the ends that may still find another

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,10 +17,23 @@ struct StripInput {
   std::span<const Index> triangles;  ///< 3 n wedges < wedge_count, the three of a triangle distinct
   std::span<const Index> group;      ///< one a triangle; empty: all in group 0
   Index wedge_count = 0;
+  std::span<const double> positions = {};  ///< 3 a wedge, all finite, or empty: shape unknown
+};
+
+/// Faces of three and more corners, before their diagonals are chosen; joined as in StripInput.
+struct PolygonInput {
+  std::span<const Index> corners;     ///< wedges < wedge_count, those of a face distinct
+  std::span<const Index> face_first;  ///< faces + 1 places in `corners`, rising by 3 or more
+  std::span<const Index> group;       ///< one a face; empty: all in group 0
+  Index wedge_count = 0;
+  std::span<const double> positions = {};  ///< 3 a wedge, all finite, or empty: faces are convex
 };
 
 /// What `best` brings down. Few strips take many swaps, and the other way round.
 enum class StripGoal : std::uint8_t { indices, strips };
+
+/// Which strips `multi-path-weighted` prefers. [Vanecek05 §5]
+enum class StripWeight : std::uint8_t { topological, axis };
 
 // Effort of `best`, in moves tried per triangle; the result depends on nothing but the input and
 // the options. On a mesh of 70,000 triangles about 0.02, 2 and 10 seconds. Below 20, few strips are
@@ -35,6 +49,10 @@ struct StripOptions {
   /// What a strip costs beside its triangles and swaps, in indices: two entries and a restart. A
   /// higher price gives fewer strips and more indices.
   std::uint32_t strip_price = 3;
+  StripWeight weight = StripWeight::topological;
+  /// Asked every few thousand steps of a long search; true ends it with the best strips so far.
+  /// The only way for time to change a result. May be empty.
+  std::function<bool()> stop = {};
 };
 
 /// An index map without symbols: strips in ascending order of group, parted by kRestart (none at
@@ -43,10 +61,16 @@ using Strips = std::vector<Index>;
 
 using Stripifier = Strips (*)(const StripInput&, const StripOptions&);
 
+/// Every face appears once, as the triangles of one of its triangulations.
+using PolygonStripifier = Strips (*)(const PolygonInput&, const StripOptions&);
+
 struct NamedStripifier {
   std::string_view name;    ///< as on the command line
   std::string_view source;  ///< key in spec/references.md and section, or where ours is described
   Stripifier run;
+  PolygonStripifier run_polygons = nullptr;  ///< nullptr: wants its faces triangulated
+  bool honors_goal = false;                  ///< StripOptions::goal changes what it does
+  bool uses_positions = false;
 };
 
 /// All algorithms, in the order in which help lists them.

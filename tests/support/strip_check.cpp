@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "core/strips.h"
@@ -62,6 +63,12 @@ std::string find_strip_fault(const StripInput& input, std::span<const Index> str
 StripMesh strip_mesh(const Mesh& mesh) {
   StripMesh out;
   out.wedge_count = mesh.wedge_count();
+  const std::vector<double> vertices = positions_as_double(mesh);
+  for (Index w = 0; w < out.wedge_count; ++w)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = vertices[std::size_t{3} * mesh.vertex_of(w) + k];
+      out.positions.push_back(std::isfinite(x) ? x : 0);
+    }
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
     if (face.size() != 3) continue;

@@ -17,7 +17,8 @@ std::string find_strip_fault(const StripInput& input, std::span<const Index> str
 struct StripMesh {
   std::vector<Index> triangles, group;
   Index wedge_count = 0;
-  StripInput input() const { return {triangles, group, wedge_count}; }
+  std::vector<double> positions;  ///< 3 a wedge
+  StripInput input() const { return {triangles, group, wedge_count, positions}; }
 };
 
 /// The triangular faces with three distinct vertices, with their groups.

@@ -15,11 +15,11 @@ using test::find_strip_fault;
 using test::StripMesh;
 
 // Two triangles over three wedges, back to back: all three edges join them, only one may be used.
-StripMesh back_to_back() { return {{0, 1, 2, 0, 2, 1}, {}, 3}; }
+StripMesh back_to_back() { return {{0, 1, 2, 0, 2, 1}, {}, 3, {}}; }
 
 // `blades` triangles around the edge 0-1, every other one with the other direction.
 StripMesh book(Index blades) {
-  StripMesh mesh{{}, {}, 2 + blades};
+  StripMesh mesh{{}, {}, 2 + blades, {}};
   for (Index i = 0; i < blades; ++i)
     mesh.triangles.insert(mesh.triangles.end(), {i % 2, 1 - i % 2, 2 + i});
   return mesh;
@@ -27,14 +27,14 @@ StripMesh book(Index blades) {
 
 // The same triangle again and again.
 StripMesh pile(Index copies) {
-  StripMesh mesh{{}, {}, 3};
+  StripMesh mesh{{}, {}, 3, {}};
   for (Index i = 0; i < copies; ++i) mesh.triangles.insert(mesh.triangles.end(), {0, 1, 2});
   return mesh;
 }
 
 // Closed fan: the strip around the hub swaps at every second triangle.
 StripMesh fan(Index blades) {
-  StripMesh mesh{{}, {}, 1 + blades};
+  StripMesh mesh{{}, {}, 1 + blades, {}};
   for (Index i = 0; i < blades; ++i)
     mesh.triangles.insert(mesh.triangles.end(), {0, 1 + i, 1 + (i + 1) % blades});
   return mesh;
@@ -61,7 +61,7 @@ std::vector<NamedMesh> meshes() {
   const Mesh lone = test::triangle_mesh(std::vector<float>(3 * 9), {7, 3, 5});
   return {
       {"empty", {}},
-      {"isolated wedges only", {{}, {}, 5}},
+      {"isolated wedges only", {{}, {}, 5, {}}},
       {"one triangle among isolated wedges", test::strip_mesh(lone)},
       {"back to back", back_to_back()},
       {"book of 2", book(2)},
@@ -75,7 +75,7 @@ std::vector<NamedMesh> meshes() {
       {"thin torus", test::strip_mesh(test::torus(3, 3))},
       {"moth-eaten torus", moth_eaten()},
       {"soup", test::strip_mesh(test::random_soup(7, 30, 400))},
-      {"groups not in order", {{0, 1, 2, 2, 1, 3, 4, 5, 6, 2, 3, 4}, {2, 0, 2, 0}, 7}},
+      {"groups not in order", {{0, 1, 2, 2, 1, 3, 4, 5, 6, 2, 3, 4}, {2, 0, 2, 0}, 7, {}}},
   };
 }
 
@@ -177,6 +177,20 @@ RC_GTEST_PROP(Best, CoversRandomSoupsByFewStrips, (std::uint32_t seed)) {
   const StripMesh mesh = test::strip_mesh(test::random_soup(seed, vertices, 200));
   const std::uint64_t many = strip_stats(find_stripifier("best")->run(mesh.input(), {})).strips;
   RC_ASSERT(fewest_strips(mesh) <= many);
+}
+
+// Stopped at the first question, after a part of the first sweep or none of the walks.
+TEST(Best, KeepsCompleteStripsWhenStopped) {
+  const StripMesh mesh = moth_eaten();
+  for (const StripGoal goal : {StripGoal::indices, StripGoal::strips})
+    for (int asked_most : {1, 2, 5}) {
+      int asked = 0;
+      const StripOptions options{
+          .goal = goal, .effort = kEffortMax, .stop = [&] { return ++asked >= asked_most; }};
+      EXPECT_GT(indices_sent(mesh, "best", options), 0u);
+      EXPECT_GE(asked, asked_most);
+      EXPECT_LE(asked, asked_most + 1);  // each of two searches hears of it
+    }
 }
 
 TEST(Best, ChangesWithTheSeedAlone) {
