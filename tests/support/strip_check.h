@@ -17,7 +17,7 @@ std::string find_strip_fault(const StripInput& input, std::span<const Index> str
 struct StripMesh {
   std::vector<Index> triangles, group;
   Index wedge_count = 0;
-  std::vector<double> positions;  ///< 3 a wedge
+  std::vector<double> positions = {};  ///< 3 a wedge
   StripInput input() const { return {triangles, group, wedge_count, positions}; }
 };
 
