@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codecs/stripify/best.h"
+#include "codecs/stripify/dstrips.h"
 #include "codecs/stripify/sgi.h"
 
 namespace pstrip {
@@ -15,6 +16,9 @@ constexpr NamedStripifier kStripifiers[] = {
      .honors_goal = true},
     {.name = "sgi-strips", .source = "[Akeley90; Vanecek05 §8.1 SGS]", .run = sgi_strips},
     {.name = "sgi-vertices", .source = "[Akeley90; Vanecek05 §8.1 SGV]", .run = sgi_vertices},
+    {.name = "dstrips-greedy", .source = "[Shafae03 §5.1]", .run = dstrips_greedy},
+    {.name = "dstrips-greedy-noswap", .source = "[Shafae03 §5.1]", .run = dstrips_greedy_no_swap},
+    {.name = "dstrips-adjacency", .source = "[Shafae03 §5.2]", .run = dstrips_adjacency},
 };
 
 }  // namespace

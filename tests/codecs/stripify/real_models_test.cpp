@@ -20,10 +20,15 @@ struct Band {
 constexpr Band kBands[] = {
     {"classic/cow.obj", "sgi-strips", 49, 98, 1.34},
     {"classic/cow.obj", "sgi-vertices", 352, 500, 1.36},
+    {"classic/cow.obj", "dstrips-greedy", 350, 520, 1.36},
+    {"classic/cow.obj", "dstrips-adjacency", 73, 160, 1.30},
     {"classic/cow.obj", "best", 150, 350, 1.265},
     {"classic/bun_zipper.ply", "sgi-strips", 324, 648, 1.24},
     {"classic/bun_zipper.ply", "sgi-vertices", 3560, 4600, 1.26},
     {"classic/bun_zipper.ply", "best", 1700, 3400, 1.175},
+    {"classic/horse.ply", "dstrips-greedy", 4700, 6500, 1.285},
+    {"classic/horse.ply", "dstrips-greedy-noswap", 11000, 15000, 1.46},
+    {"classic/horse.ply", "dstrips-adjacency", 1000, 2200, 1.245},
     {"classic/horse.ply", "best", 2700, 5400, 1.21},
     {"classic/igea.ply", "best", 7600, 15000, 1.21},
 };
