@@ -4,6 +4,7 @@
 
 #include "codecs/stripify/best.h"
 #include "codecs/stripify/dstrips.h"
+#include "codecs/stripify/mstrip.h"
 #include "codecs/stripify/sgi.h"
 
 namespace pstrip {
@@ -19,6 +20,10 @@ constexpr NamedStripifier kStripifiers[] = {
     {.name = "dstrips-greedy", .source = "[Shafae03 §5.1]", .run = dstrips_greedy},
     {.name = "dstrips-greedy-noswap", .source = "[Shafae03 §5.1]", .run = dstrips_greedy_no_swap},
     {.name = "dstrips-adjacency", .source = "[Shafae03 §5.2]", .run = dstrips_adjacency},
+    {.name = "mstrip",
+     .source = "[Silva02; Vanecek05 §2.2, §8.1 MSS, MSV]",
+     .run = mstrip,
+     .honors_goal = true},
 };
 
 }  // namespace

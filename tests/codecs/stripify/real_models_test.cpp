@@ -50,6 +50,28 @@ TEST(Stripifiers, StayWithinTheirBandsOnRealModels) {
   }
 }
 
+// The thesis has 78 and 127 strips for cow, 575 and 1174 for bunny. [Vanecek05 table 8.3 MSS, MSV]
+TEST(MStrip, StaysNearTheThesis) {
+  struct Case {
+    const char* model;
+    StripGoal goal;
+    std::uint64_t most_strips, most_entries;
+  };
+  constexpr Case kCases[] = {{"classic/cow.obj", StripGoal::strips, 95, 8'000},
+                             {"classic/cow.obj", StripGoal::indices, 180, 7'600},
+                             {"classic/bun_zipper.ply", StripGoal::strips, 575, 86'000},
+                             {"classic/bun_zipper.ply", StripGoal::indices, 1400, 83'500}};
+  if (!test::real_mesh(kCases[0].model)) GTEST_SKIP() << "the folder of real models is not there";
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.model);
+    const test::StripMesh mesh = test::strip_mesh(*test::real_mesh(c.model));
+    const Strips strips = find_stripifier("mstrip")->run(mesh.input(), {.goal = c.goal});
+    ASSERT_EQ(test::find_strip_fault(mesh.input(), strips), "");
+    EXPECT_LE(strip_stats(strips).strips, c.most_strips);
+    EXPECT_LE(strip_stats(strips).entries, c.most_entries);
+  }
+}
+
 TEST(Best, MakesFewStripsOfRealModels) {
   constexpr std::pair<const char*, std::uint64_t> kMost[] = {{"classic/cow.obj", 5},
                                                              {"classic/bun_zipper.ply", 40}};
