@@ -5,6 +5,7 @@
 #include "codecs/stripify/best.h"
 #include "codecs/stripify/dstrips.h"
 #include "codecs/stripify/mstrip.h"
+#include "codecs/stripify/multi_path.h"
 #include "codecs/stripify/sgi.h"
 
 namespace pstrip {
@@ -24,6 +25,11 @@ constexpr NamedStripifier kStripifiers[] = {
      .source = "[Silva02; Vanecek05 §2.2, §8.1 MSS, MSV]",
      .run = mstrip,
      .honors_goal = true},
+    {.name = "multi-path", .source = "[Vanecek05 §4.2]", .run = multi_path},
+    {.name = "multi-path-weighted",
+     .source = "[Vanecek05 §5.1]",
+     .run = multi_path_weighted,
+     .uses_positions = true},
 };
 
 }  // namespace
