@@ -125,7 +125,7 @@ Command add_compare(CLI::App& root) {
   app->add_option("--samples", options->samples, "Points on each surface for distances")
       ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
       ->capture_default_str();
-  options->format.add_to(*app, false);
+  options->format.add_to(*app, {"text", "json"});
   options->level.add_to(*app);
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};

@@ -20,17 +20,6 @@ struct Options {
   LimitOptions limits;
 };
 
-std::vector<std::string> split(std::string_view list) {
-  std::vector<std::string> out;
-  if (list == "none") return out;
-  while (!list.empty()) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    if (comma > 0) out.emplace_back(list.substr(0, comma));
-    list.remove_prefix(std::min(comma + 1, list.size()));
-  }
-  return out;
-}
-
 void report(const Streams& io, const Options& options, const LoadedFile& input,
             const SavedFiles& saved) {
   note(io, options.output, saved.notes);
@@ -71,10 +60,12 @@ ExitCode run(const Options& options, const Streams& io) {
     if (!decoded) return complain(io, decoded.error(), options.input);
     Model model = std::move(decoded).value();
     if (!options.attributes.empty() && options.attributes != "all")
-      keep_attributes(model, split(options.attributes));
+      keep_attributes(model, options.attributes == "none" ? std::vector<std::string>()
+                                                          : split_list(options.attributes));
     if (is_progressive(*target)) {
       auto strips = encode(model, *encode_options, bar.callback());
       if (!strips) return complain(io, strips.error(), options.input);
+      options.encode.stripping.note_time_limit(io);
       saved = save(*strips, options.output, *target);
     } else {
       saved = save(model, options.output, *target,

@@ -290,7 +290,7 @@ Command add_inspect(CLI::App& root) {
   CLI::App* app = root.add_subcommand("inspect", "Show what a file holds and what each part costs");
   app->add_option("input", options->input, "Model or progressive file; - is standard input")
       ->required();
-  options->format.add_to(*app, true);
+  options->format.add_to(*app, {"text", "json", "csv"});
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};
 }

@@ -1,15 +1,28 @@
 #include "cli/option_groups.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <ostream>
 
 #include "codecs/stripify/stripify.h"
 
 namespace pstrip::cli {
 
-void FormatOption::add_to(CLI::App& app, bool with_csv) {
-  const std::vector<std::string> names = with_csv ? std::vector<std::string>{"text", "json", "csv"}
-                                                  : std::vector<std::string>{"text", "json"};
+std::vector<std::string> split_list(std::string_view list) {
+  std::vector<std::string> out;
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    if (comma > 0) out.emplace_back(list.substr(0, comma));
+    list.remove_prefix(std::min(comma + 1, list.size()));
+  }
+  return out;
+}
+
+void FormatOption::add_to(CLI::App& app, const std::vector<std::string>& names) {
   app.add_option("--format", format, "How to print the report")
       ->check(CLI::IsMember(names))
       ->capture_default_str();
@@ -43,8 +56,17 @@ void LevelOptions::add_to(CLI::App& app) {
   for (auto* option : {packets, triangles, error}) option->group("Level of a progressive file");
 }
 
+std::function<bool()> stop_after(double seconds, std::shared_ptr<bool> was_cut) {
+  if (seconds <= 0) return {};
+  return [=, start = std::chrono::steady_clock::now()]() {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    *was_cut = *was_cut || passed.count() > seconds;
+    return *was_cut;
+  };
+}
+
 void StripOptionsGroup::add_to(CLI::App& app) {
-  constexpr const char* kGroup = "Stripification (best)";
+  constexpr const char* kGroup = "Stripification";
   app.add_option("--goal", goal, "Fewest indices sent, or fewest strips")
       ->check(CLI::IsMember({"indices", "strips"}))
       ->capture_default_str()
@@ -57,12 +79,23 @@ void StripOptionsGroup::add_to(CLI::App& app) {
       ->check(CLI::Range(0u, 1000u))
       ->capture_default_str()
       ->group(kGroup);
+  app.add_option("--strip-weight", weight, "What multi-path-weighted prefers")
+      ->check(CLI::IsMember({"topological", "axis"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--time-limit", time_limit,
+                 "Cut the search after so many seconds, if only by a part of it; 0 is never")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->group(kGroup);
 }
 
 Result<StripOptions> StripOptionsGroup::get() const {
   StripOptions out;
   out.goal = goal == "strips" ? StripGoal::strips : StripGoal::indices;
   out.strip_price = price;
+  out.weight = weight == "axis" ? StripWeight::axis : StripWeight::topological;
+  out.stop = stop_after(time_limit, was_cut);
   if (effort == "fast" || effort == "high" || effort == "max") {
     out.effort = effort == "fast" ? kEffortFast : effort == "high" ? kEffortHigh : kEffortMax;
     return out;
@@ -73,6 +106,11 @@ Result<StripOptions> StripOptionsGroup::get() const {
     return fail(ErrorCode::bad_argument,
                 "--strip-effort takes fast, high, max or a number: " + effort);
   return out;
+}
+
+void StripOptionsGroup::note_time_limit(const Streams& io) const {
+  if (*was_cut && !io.quiet)
+    io.err << fmt::format("pstrips: the time limit of {} s cut the stripification\n", time_limit);
 }
 
 void EncodeOptionsGroup::add_to(CLI::App& app) {

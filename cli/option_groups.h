@@ -1,8 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "cli/command.h"
 #include "codecs/stripify/stripify.h"
 #include "converters/decode.h"
 #include "converters/files.h"
@@ -14,12 +19,16 @@ class App;
 
 namespace pstrip::cli {
 
-/// --format text|json[|csv]
+/// "a,,b" as a and b: an option's list.
+std::vector<std::string> split_list(std::string_view list);
+
+/// --format, one of the names given
 struct FormatOption {
   std::string format = "text";
-  void add_to(CLI::App& app, bool with_csv);
+  void add_to(CLI::App& app, const std::vector<std::string>& names);
   bool json() const { return format == "json"; }
   bool csv() const { return format == "csv"; }
+  bool md() const { return format == "md"; }
 };
 
 /// --max-vertices, --max-wedges, --max-corners, --max-meshes, --max-string, --max-memory,
@@ -36,14 +45,23 @@ struct LevelOptions {
   bool given() const { return choice.packets >= 0 || choice.triangles >= 0 || choice.error >= 0; }
 };
 
-/// --goal, --strip-effort, --strip-price: how hard the stripifier tries, and for what.
+/// True from `seconds` after the call on, and then notes it in `*was_cut`; empty for 0 seconds.
+std::function<bool()> stop_after(double seconds, std::shared_ptr<bool> was_cut);
+
+/// --goal, --strip-effort, --strip-price, --strip-weight, --time-limit: how hard the stripifier
+/// tries, and for what.
 struct StripOptionsGroup {
   std::string goal = "indices";
   std::string effort = "fast";
   std::uint32_t price = 3;
+  std::string weight = "topological";
+  double time_limit = 0;                                          ///< seconds; 0: none
+  std::shared_ptr<bool> was_cut = std::make_shared<bool>(false);  ///< by the time limit
   void add_to(CLI::App& app);
-  /// errors  bad_argument
+  /// The time limit runs from here on. errors  bad_argument
   Result<StripOptions> get() const;
+  /// Says so when the time limit cut the work: the result then depends on the machine.
+  void note_time_limit(const Streams& io) const;
 };
 
 /// The options above and --strips, --stripifier, --base, --base-error, --keep-order, --profile

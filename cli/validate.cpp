@@ -157,7 +157,7 @@ Command add_validate(CLI::App& root) {
   app->add_flag("--warnings-as-errors", options->validate.warnings_as_errors,
                 "Warnings make a file invalid");
   app->add_option("--explain", options->explain, "Explain the rule of a code, and nothing else");
-  options->format.add_to(*app, false);
+  options->format.add_to(*app, {"text", "json"});
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};
 }

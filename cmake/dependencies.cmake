@@ -10,6 +10,12 @@ find_package(tinyxml2 9.0 REQUIRED)
 find_path(EXPECTED_INCLUDE_DIR tl/expected.hpp REQUIRED)
 find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h REQUIRED)
 
+# Compared with, where they are installed. VTK is half a gigabyte and in no list of ours.
+find_package(meshoptimizer 0.18 QUIET)
+find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/IO/MeshIO.hh)
+find_library(OPENMESH_CORE OpenMeshCore)
+find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
+
 if(PSTRIPS_TESTS)
   find_package(GTest 1.12 REQUIRED)
   find_package(TinyGLTF 2.7 REQUIRED)  # reads what we write, for comparison

@@ -156,7 +156,7 @@ class Encoder {
     const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
     if (!go_on("stripify", m, 0)) return interrupted();
     const Triangulation triangles = triangulate(mesh);
-    const StripMap strips = strip_mesh(mesh, triangles, stripifier_->run, options_.strip_options);
+    const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options);
     if (strips.entries.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
     if (!go_on("simplify", m, 0.25)) return interrupted();

@@ -1,50 +1,156 @@
 #include "converters/strip_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pstrip {
+namespace {
 
-StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles, Stripifier stripifier,
-                    const StripOptions& options) {
-  const std::size_t groups = mesh.groups.size();
+// The faces of one group, with wedge numbers of its own, so that a stripifier's arrays are as large
+// as the group and not as the mesh.
+class GroupFaces {
+ public:
+  explicit GroupFaces(const Mesh& mesh, bool with_positions)
+      : mesh_(mesh), local_(mesh.wedge_count(), kNone) {
+    if (with_positions) vertex_positions_ = positions_as_double(mesh);
+  }
+
+  void clear() {
+    for (const Index wedge : global_) local_[wedge] = kNone;
+    global_.clear();
+    corners_.clear();
+    positions_.clear();
+    face_first_.assign(1, 0);
+  }
+
+  void add(std::span<const Index> face) {
+    for (const Index wedge : face) corners_.push_back(number(wedge));
+    face_first_.push_back(static_cast<Index>(corners_.size()));
+  }
+
+  StripInput triangles() const {
+    return {.triangles = corners_,
+            .group = {},
+            .wedge_count = static_cast<Index>(global_.size()),
+            .positions = positions_};
+  }
+  PolygonInput polygons() const {
+    return {.corners = corners_,
+            .face_first = face_first_,
+            .group = {},
+            .wedge_count = static_cast<Index>(global_.size()),
+            .positions = positions_};
+  }
+  Index global(Index wedge) const { return global_[wedge]; }
+
+ private:
+  Index number(Index wedge) {
+    if (local_[wedge] != kNone) return local_[wedge];
+    local_[wedge] = static_cast<Index>(global_.size());
+    global_.push_back(wedge);
+    if (!vertex_positions_.empty())
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = vertex_positions_[std::size_t{3} * mesh_.vertex_of(wedge) + k];
+        positions_.push_back(std::isfinite(x) ? x : 0);
+      }
+    return local_[wedge];
+  }
+
+  const Mesh& mesh_;
+  std::vector<double> vertex_positions_, positions_;
+  std::vector<Index> local_, global_, corners_, face_first_{0};
+};
+
+// Where the elements of each group are in `sorted`, groups + 1 places.
+struct ByGroup {
+  std::vector<std::size_t> first;
+  std::vector<Index> sorted;
+};
+
+template <class GroupOf>
+ByGroup sort_by_group(std::size_t groups, std::size_t count, GroupOf&& group_of) {
+  ByGroup out{std::vector<std::size_t>(groups + 1, 0), std::vector<Index>(count)};
+  for (std::size_t i = 0; i < count; ++i) ++out.first[group_of(i) + 1];
+  for (std::size_t g = 0; g < groups; ++g) out.first[g + 1] += out.first[g];
+  std::vector<std::size_t> at(out.first.begin(), out.first.end() - 1);
+  for (std::size_t i = 0; i < count; ++i) out.sorted[at[group_of(i)]++] = static_cast<Index>(i);
+  return out;
+}
+
+// Calls fill(element, faces) for the elements of a group and run(faces) for its strips.
+template <class Fill, class Run>
+StripMap strip_groups(const ByGroup& elements, GroupFaces& faces, Fill&& fill, Run&& run) {
+  const std::size_t groups = elements.first.size() - 1;
   StripMap out;
   out.group_entries.assign(groups, 0);
-
-  // Triangles by group, each group with wedge numbers of its own, so that a stripifier's arrays
-  // are as large as the group and not as the mesh.
-  std::vector<std::size_t> first(groups + 1, 0);
-  for (const Index f : triangles.face) ++first[mesh.group_of(f) + 1];
-  for (std::size_t g = 0; g < groups; ++g) first[g + 1] += first[g];
-  std::vector<Index> sorted(triangles.face.size());
-  std::vector<std::size_t> at(first.begin(), first.end() - 1);
-  for (std::size_t t = 0; t < sorted.size(); ++t)
-    sorted[at[mesh.group_of(triangles.face[t])]++] = static_cast<Index>(t);
-
-  std::vector<Index> local(mesh.wedge_count(), kNone), global, corners;
   for (std::size_t g = 0; g < groups; ++g) {
-    if (first[g] == first[g + 1]) continue;
-    global.clear();
-    corners.clear();
-    for (std::size_t k = first[g]; k < first[g + 1]; ++k)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const Index wedge = triangles.corners[std::size_t{3} * sorted[k] + c];
-        if (local[wedge] == kNone) {
-          local[wedge] = static_cast<Index>(global.size());
-          global.push_back(wedge);
-        }
-        corners.push_back(local[wedge]);
-      }
-    const Strips strips = stripifier(
-        {.triangles = corners, .group = {}, .wedge_count = static_cast<Index>(global.size())},
-        options);
-    const std::size_t before = out.entries.size();
+    faces.clear();
+    for (std::size_t i = elements.first[g]; i < elements.first[g + 1]; ++i)
+      fill(elements.sorted[i], faces);
+    const Strips strips = run(faces);
+    if (strips.empty()) continue;
+    if (!out.entries.empty()) {  // behind the last group that has strips
+      out.entries.push_back(kRestart);
+      const auto before = std::find_if(out.group_entries.rbegin(), out.group_entries.rend(),
+                                       [](Index entries) { return entries != 0; });
+      ++*before;
+    }
     for (const Index entry : strips)
-      out.entries.push_back(entry == kRestart ? kRestart : global[entry]);
-    if (first[g + 1] < sorted.size()) out.entries.push_back(kRestart);
-    out.group_entries[g] = static_cast<Index>(out.entries.size() - before);
-    for (const Index wedge : global) local[wedge] = kNone;
+      out.entries.push_back(entry == kRestart ? kRestart : faces.global(entry));
+    out.group_entries[g] = static_cast<Index>(strips.size());
   }
   return out;
+}
+
+// `vertices` is scratch.
+bool meets_no_vertex_twice(const Mesh& mesh, std::span<const Index> face,
+                           std::vector<Index>& vertices) {
+  vertices.clear();
+  for (const Index wedge : face) vertices.push_back(mesh.vertex_of(wedge));
+  std::ranges::sort(vertices);
+  return std::ranges::adjacent_find(vertices) == vertices.end();
+}
+
+}  // namespace
+
+StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
+                    const NamedStripifier& stripifier, const StripOptions& options) {
+  GroupFaces faces(mesh, stripifier.uses_positions);
+  const ByGroup by_group =
+      sort_by_group(mesh.groups.size(), triangles.face.size(),
+                    [&](std::size_t t) { return mesh.group_of(triangles.face[t]); });
+  return strip_groups(
+      by_group, faces,
+      [&](Index t, GroupFaces& out) {
+        out.add(std::span(triangles.corners).subspan(std::size_t{3} * t, 3));
+      },
+      [&](const GroupFaces& group) { return stripifier.run(group.triangles(), options); });
+}
+
+StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
+                     const StripOptions& options) {
+  const Triangulation triangles = triangulate(mesh);
+  if (!stripifier.run_polygons || mesh.face_first.empty())
+    return strip_mesh(mesh, triangles, stripifier, options);
+  // The triangles of each face follow each other.
+  std::vector<Index> first(mesh.face_count() + std::size_t{1}, 0);
+  for (const Index f : triangles.face) ++first[f + 1];
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) first[f + 1] += first[f];
+
+  GroupFaces faces(mesh, true);
+  std::vector<Index> scratch;
+  const ByGroup by_group = sort_by_group(mesh.groups.size(), mesh.face_count(), [&](std::size_t f) {
+    return mesh.group_of(static_cast<Index>(f));
+  });
+  return strip_groups(
+      by_group, faces,
+      [&](Index f, GroupFaces& out) {
+        const auto face = mesh.face(f);
+        if (face.size() >= 3 && meets_no_vertex_twice(mesh, face, scratch)) return out.add(face);
+        for (Index t = first[f]; t < first[f + 1]; ++t)
+          out.add(std::span(triangles.corners).subspan(std::size_t{3} * t, 3));
+      },
+      [&](const GroupFaces& group) { return stripifier.run_polygons(group.polygons(), options); });
 }
 
 }  // namespace pstrip

@@ -12,25 +12,29 @@ MAY_INCLUDE = {
     "formats": {"core", "formats"},
     "converters": {"core", "codecs", "formats", "converters"},
     "validators": {"core", "codecs", "formats", "validators"},
-    "cli": {"core", "codecs", "formats", "converters", "validators", "cli"},
+    "peers": {"core", "codecs", "peers"},
+    "cli": {"core", "codecs", "formats", "converters", "validators", "peers", "cli"},
 }
 
 # The folders whose .cpp files may include a library's headers: one, but for the libraries that read
 # numbers and JSON wherever that is done.
 THIRD_PARTY = {
     "CLI/": {"cli"},
+    "OpenMesh/": {"peers"},
     "fast_float/": {"formats/obj", "formats/ply"},
     "fmt/": {"cli"},
+    "meshoptimizer.h": {"peers"},
     "nlohmann/": {"cli", "formats/gltf"},
     "openssl/": {"formats/pstrip"},
     "tiny_gltf.h": {"formats/gltf"},
     "tinyxml2.h": {"formats/pstrip"},
+    **{f"vtk{name}.h": {"peers"} for name in ("CellArray", "New", "Points", "PolyData", "Stripper")},
     "zlib.h": {"formats/pstrip"},
 }
 # Headers that cannot do without.
 IN_HEADERS = {("core/result.h", "tl/")}
 
-SYSTEM = {"fcntl.h", "unistd.h", "sys/mman.h", "sys/stat.h"}
+SYSTEM = {"fcntl.h", "malloc.h", "unistd.h", "sys/mman.h", "sys/stat.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 

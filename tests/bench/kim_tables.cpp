@@ -34,7 +34,7 @@ struct Recordings {
 
 Recordings record_both(const Mesh& mesh, const NamedStripifier& stripifier) {
   const Triangulation triangles = triangulate(mesh);
-  const StripMap strips = strip_mesh(mesh, triangles, stripifier.run);
+  const StripMap strips = strip_mesh(mesh, triangles, stripifier);
   const std::vector<double> positions = positions_as_double(mesh);
   const CollapseSequence sequence = simplify({.positions = positions,
                                               .wedge_vertex = mesh.wedge_vertex,

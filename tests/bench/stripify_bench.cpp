@@ -2,16 +2,14 @@
 // of models a torus takes their place.
 
 #include <benchmark/benchmark.h>
-#include <meshoptimizer.h>
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <OpenMesh/Tools/Utils/StripifierT.hh>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "codecs/stripify/stats.h"
 #include "codecs/stripify/stripify.h"
+#include "peers/peers.h"
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 #include "tests/support/strip_check.h"
@@ -20,43 +18,6 @@ namespace pstrip {
 namespace {
 
 using test::StripMesh;
-
-Strips meshoptimizer_strips(const StripMesh& mesh) {
-  std::vector<Index> ordered(mesh.triangles.size());
-  meshopt_optimizeVertexCacheStrip(ordered.data(), mesh.triangles.data(), ordered.size(),
-                                   mesh.wedge_count);
-  Strips strips(meshopt_stripifyBound(ordered.size()));
-  strips.resize(
-      meshopt_stripify(strips.data(), ordered.data(), ordered.size(), mesh.wedge_count, kRestart));
-  return strips;
-}
-
-using OpenTriMesh = OpenMesh::TriMesh_ArrayKernelT<>;
-
-// The mesh is built outside the timed loop, unlike our dual graph: that favours the peer. It
-// refuses non-manifold triangles, which are then missing.
-std::shared_ptr<OpenTriMesh> open_mesh(const StripMesh& mesh) {
-  auto out = std::make_shared<OpenTriMesh>();
-  for (Index w = 0; w < mesh.wedge_count; ++w) out->add_vertex({});
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const auto at = [&](std::size_t k) {
-      return OpenMesh::VertexHandle(static_cast<int>(mesh.triangles[i + k]));
-    };
-    out->add_face(at(0), at(1), at(2));
-  }
-  return out;
-}
-
-Strips open_mesh_strips(OpenTriMesh& mesh) {
-  OpenMesh::StripifierT<OpenTriMesh> stripifier(mesh);
-  stripifier.stripify();
-  Strips strips;
-  for (auto strip = stripifier.begin(); strip != stripifier.end(); ++strip) {
-    if (!strips.empty()) strips.push_back(kRestart);
-    for (const auto vertex : *strip) strips.push_back(static_cast<Index>(vertex));
-  }
-  return strips;
-}
 
 void run(benchmark::State& state, const StripMesh& mesh, const std::function<Strips()>& stripify,
          bool covers_once) {
@@ -87,11 +48,10 @@ void add(const std::string& name, const std::shared_ptr<StripMesh>& mesh,
 
 void add_model(const std::string& model, const Mesh& source) {
   const auto mesh = std::make_shared<StripMesh>(test::strip_mesh(source));
-  add(
-      model + "/meshoptimizer", mesh, [=] { return meshoptimizer_strips(*mesh); }, false);
-  const auto peer = open_mesh(*mesh);
-  add(
-      model + "/OpenMesh", mesh, [=] { return open_mesh_strips(*peer); }, false);
+  for (const NamedStripifier& peer : peer_stripifiers())
+    add(
+        model + "/" + std::string(peer.name), mesh, [=] { return peer.run(mesh->input(), {}); },
+        false);
   for (const NamedStripifier& stripifier : stripifiers())
     add(
         model + "/" + std::string(stripifier.name), mesh,

@@ -42,6 +42,11 @@ CASES = [
     (["compare", "tube.obj", "tube.obj", "--samples", "0"], 1, "", "--samples"),
     (["stripify", "tube.obj", "out.pstrip"], 1, "", "convert"),
     (["stripify", "tube.obj", "--algorithm", "none"], 1, "", "--algorithm"),
+    (["stripify", "tube.obj", "--algorithm", "best,sgi-strips"], 1, "", "--compare"),
+    (["stripify", "tube.obj", "--algorithm", "none", "--compare"], 1, "", "there is no none"),
+    (["stripify", "tube.obj", "a.ply", "b.ply"], 1, "", "--compare"),
+    (["stripify", "tube.obj", "--format", "csv"], 1, "", "--compare"),
+    (["stripify", "tube.obj", "--time-limit", "-1"], 1, "", "--time-limit"),
     # Good runs.
     (["convert", "tube.obj", "out.pstrip"], 0, "", "tube.obj ("),
     (["validate", "good.pstrip"], 0, "good.pstrip: valid\n", ""),

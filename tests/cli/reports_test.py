@@ -1,5 +1,7 @@
 """Reports: JSON that keeps to its schema whatever the file is, and the options of validate."""
 
+import csv
+import io
 import random
 import struct
 import unittest
@@ -7,6 +9,8 @@ import zlib
 
 from support import GOLDEN, GOLDEN_XML, ProgramTest, Run
 
+# Of ours, some: other libraries' may be there or not.
+HELP_STRIPIFIERS = ("best", "sgi-strips", "sgi-vertices", "mstrip", "dstrips-greedy")
 COMMANDS = ("validate", "inspect", "stripify", "compare")
 # Overlong, a surrogate, beyond Unicode, and never a byte of UTF-8.
 BROKEN_NAME = b"b\xe0\x80\x80\xed\xa0\x80\xf4\x90\x80\x80\xff.obj".decode(errors="surrogateescape")
@@ -188,6 +192,57 @@ class Stripify(ProgramTest):
             self.assertGreaterEqual(figures["milliseconds"], 0)
             text = self.run_program("stripify", "tube.obj", "--algorithm", algorithm).out.decode()
             self.assertIn(f"tube.obj: {algorithm}\n", text)
+
+    def test_comparison(self):
+        self.write_tube()
+        self.run_program("convert", "-q", "tube.obj", "tube.ply")
+        models = ("tube.obj", "tube.ply")
+        report = self.report("stripify", "--compare", *models, schema="stripify-compare")
+        self.assertEqual([m["file"] for m in report["models"]], list(models))
+        for model in report["models"]:
+            rows = {(r["algorithm"], r["variant"]): r for r in model["algorithms"]}
+            self.assertEqual(len(rows), len(model["algorithms"]))
+            self.assertLessEqual(rows["best", "high, strips"]["strips"], rows["best", "fast"]["strips"])
+            self.assertLess(rows["best", "high"]["indices_sent"], rows["sgi-strips", ""]["indices_sent"])
+            for row in rows.values():
+                self.assertGreater(row["peak_bytes"], 4 * row["indices_sent"])
+                if row["algorithm"] in HELP_STRIPIFIERS:
+                    self.assertEqual((row["remark"], row["triangles"]), ("", 352), row)
+
+    def test_comparison_formats(self):
+        self.write_tube()
+        chosen = ("--algorithm", "sgi-strips,best", "--strip-effort", "3")
+        csv_rows = list(csv.DictReader(io.StringIO(
+            self.run_program("stripify", "tube.obj", "--compare", "--format", "csv", *chosen).out.decode())))
+        self.assertEqual([(r["algorithm"], r["variant"]) for r in csv_rows],
+                         [("best", "fast"), ("best", "effort 3"), ("best", "effort 3, strips"),
+                          ("sgi-strips", "")])
+        for kind in ("text", "md"):
+            lines = self.run_program("stripify", "tube.obj", "--compare", "--format", kind,
+                                     *chosen).out.decode().splitlines()
+            self.assertIn("tube.obj: 352 triangles", lines[0])
+            for row in csv_rows:
+                self.assertTrue(any(row["algorithm"] in line and row["strips"] in line for line in lines))
+
+    def test_comparison_goes_on_after_a_broken_file(self):
+        self.write_tube()
+        self.write("cut.glb", b"glTF")
+        run = self.run_program("stripify", "--compare", "cut.glb", "tube.obj", "missing.ply",
+                               "--algorithm", "sgi-strips", code=3)
+        self.assertIn("tube.obj: 352 triangles", run.out.decode())
+        self.assertIn("missing.ply", run.err)
+
+    def test_time_limit(self):
+        self.write_tube()
+        limit = ("--strip-effort", "4000000000", "--time-limit", "0.05")
+        run = self.run_program("stripify", "tube.obj", *limit)
+        self.assertIn("the time limit of 0.05 s cut", run.err)
+        self.assertIn("352", run.out.decode())
+        run = self.run_program("convert", "tube.obj", "out.pstrip", *limit)
+        self.assertIn("the time limit of 0.05 s cut", run.err)
+        self.assertEqual(self.likeness("tube.obj", "out.pstrip"), "reordered")
+        text = self.run_program("stripify", "tube.obj", "--time-limit", "600")
+        self.assertNotIn("time limit", text.err)
 
     def test_output_is_the_model_in_strip_order(self):
         self.write_tube()

@@ -1,17 +1,13 @@
 #pragma once
 
-#include <span>
-#include <string>
+#include <vector>
 
-#include "codecs/stripify/stripify.h"
+#include "codecs/stripify/check.h"
 #include "core/mesh.h"
 
 namespace pstrip::test {
 
-/// What is wrong with `strips` as a stripification of `input`, as a phrase; empty when they cover
-/// every triangle exactly once with its winding, in ascending order of group, no strip across
-/// groups, none without a triangle. Decodes the indices by itself; cost O(n log n).
-std::string find_strip_fault(const StripInput& input, std::span<const Index> strips);
+using pstrip::find_strip_fault;
 
 /// The triangles of a mesh that strips can show, and their groups.
 struct StripMesh {

@@ -1,0 +1,77 @@
+#include "cli/strip_figures.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "cli/heap.h"
+#include "codecs/stripify/check.h"
+#include "converters/strip_mesh.h"
+
+namespace pstrip::cli {
+namespace {
+
+Mesh in_order(const Mesh& mesh, const StripMap& map) {
+  Mesh out = mesh;
+  out.corners.clear();
+  out.face_first.clear();
+  out.face_group.clear();
+  out.face_attributes.clear();
+  std::size_t first = 0;
+  for (Index g = 0; g < map.group_entries.size(); ++g) {
+    for_each_triangle(
+        std::span(map.entries).subspan(first, map.group_entries[g]),
+        [&](Index w) { return mesh.vertex_of(w); },
+        [&](Index a, Index b, Index c) {
+          out.corners.insert(out.corners.end(), {a, b, c});
+          out.face_group.push_back(g);
+        });
+    first += map.group_entries[g];
+  }
+  canonicalize(out);
+  return out;
+}
+
+std::string find_fault(const Mesh& mesh, const StripMap& map) {
+  const Triangulation triangles = triangulate(mesh);
+  std::vector<Index> group;
+  for (const Index face : triangles.face) group.push_back(mesh.group_of(face));
+  return find_strip_fault({.triangles = triangles.corners,
+                           .group = group,
+                           .wedge_count = static_cast<Index>(mesh.wedge_count())},
+                          map.entries);
+}
+
+void add(StripStats& sum, const StripStats& stats) {
+  const double misses = sum.acmr16 * static_cast<double>(sum.triangles) +
+                        stats.acmr16 * static_cast<double>(stats.triangles);
+  sum.triangles += stats.triangles;
+  sum.strips += stats.strips;
+  sum.singletons += stats.singletons;
+  sum.swaps += stats.swaps;
+  sum.entries += stats.entries;
+  sum.indices_sent += stats.indices_sent;
+  sum.acmr16 = sum.triangles == 0 ? 0 : misses / static_cast<double>(sum.triangles);
+}
+
+}  // namespace
+
+StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
+                            const StripOptions& options, bool in_strip_order) {
+  StripFigures out;
+  for (Mesh& mesh : model.meshes) {
+    const HeapPeak heap;
+    const auto start = std::chrono::steady_clock::now();
+    const StripMap map = strip_faces(mesh, stripifier, options);
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    out.milliseconds += time.count();
+    out.peak_bytes = std::max(out.peak_bytes, heap.bytes());
+    add(out.stats, strip_stats(map.entries));
+    // With diagonals of its own the strips have other triangles than the triangulation.
+    const bool free_diagonals = stripifier.run_polygons && !mesh.face_first.empty();
+    if (out.remark.empty() && !free_diagonals) out.remark = find_fault(mesh, map);
+    if (in_strip_order) mesh = in_order(mesh, map);
+  }
+  return out;
+}
+
+}  // namespace pstrip::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include "codecs/stripify/stats.h"
+#include "codecs/stripify/stripify.h"
+#include "core/mesh.h"
+#include "core/scene.h"
+
+namespace pstrip::cli {
+
+/// What a stripifier made of a model, all meshes together.
+struct StripFigures {
+  StripStats stats;
+  double milliseconds = 0;
+  std::size_t peak_bytes = 0;  ///< largest heap of any one mesh's run, its result included
+  std::string remark;          ///< what the strips miss of a stripification; empty: nothing
+
+  double indices_per_triangle() const {
+    return stats.triangles == 0
+               ? 0
+               : static_cast<double>(stats.indices_sent) / static_cast<double>(stats.triangles);
+  }
+};
+
+/// Runs a stripifier on every mesh of a model and checks what it gives. With `in_strip_order`,
+/// the meshes come out with their triangles in strip order, so that a strip-aware writer finds
+/// them again.
+StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
+                            const StripOptions& options, bool in_strip_order);
+
+}  // namespace pstrip::cli

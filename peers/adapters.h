@@ -1,0 +1,14 @@
+#pragma once
+
+#include "codecs/stripify/stripify.h"
+
+namespace pstrip {
+
+// One file each, compiled where the library is there. Groups are not looked at: whoever calls
+// gives one group at a time.
+
+Strips meshoptimizer_strips(const StripInput& input, const StripOptions& options);
+Strips openmesh_strips(const StripInput& input, const StripOptions& options);
+Strips vtk_strips(const StripInput& input, const StripOptions& options);
+
+}  // namespace pstrip
