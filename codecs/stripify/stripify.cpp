@@ -7,6 +7,7 @@
 #include "codecs/stripify/mstrip.h"
 #include "codecs/stripify/multi_path.h"
 #include "codecs/stripify/sgi.h"
+#include "codecs/stripify/tunneling.h"
 
 namespace pstrip {
 namespace {
@@ -30,6 +31,7 @@ constexpr NamedStripifier kStripifiers[] = {
      .source = "[Vanecek05 §5.1]",
      .run = multi_path_weighted,
      .uses_positions = true},
+    {.name = "tunneling", .source = "[Stewart01 §3; Vanecek05 §2.2, §8.1 TUS]", .run = tunneling},
 };
 
 }  // namespace

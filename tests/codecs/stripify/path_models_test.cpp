@@ -26,6 +26,8 @@ constexpr Band kBands[] = {
     {"multi-path-weighted", kBunny, 86, 40, 90, 1.30, StripWeight::axis},
     {"multi-path-weighted", kCow, 16, 10, 26, 1.40},
     {"multi-path-weighted", kBunny, 86, 30, 70, 1.33},
+    {"tunneling", kCow, 19, 1, 6, 1.39},
+    {"tunneling", kBunny, 166, 8, 35, 1.30},
 };
 
 TEST(PathStripifiers, StayNearThePublishedFigures) {
