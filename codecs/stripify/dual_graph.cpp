@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <tuple>
+#include <utility>
 
 namespace pstrip {
 namespace {
@@ -14,32 +15,63 @@ struct Filed {
   friend auto operator<=>(const Filed&, const Filed&) = default;
 };
 
+// What pairing asks of a mesh, half-edge by half-edge.
+struct TriangleEdges {
+  const StripInput& input;
+  Index count() const { return static_cast<Index>(input.triangles.size()); }
+  Index wedge_count() const { return input.wedge_count; }
+  Index origin(Index h) const { return input.triangles[h]; }
+  Index target(Index h) const { return input.triangles[next_in_triangle(h)]; }
+  Index group(Index h) const { return input.group.empty() ? 0 : input.group[triangle_of(h)]; }
+};
+
+class PolygonEdges {
+ public:
+  explicit PolygonEdges(const PolygonInput& input) : input_(input), face_(input.corners.size()) {
+    for (std::size_t f = 0; f + 1 < input.face_first.size(); ++f)
+      std::fill(face_.begin() + input.face_first[f], face_.begin() + input.face_first[f + 1],
+                static_cast<Index>(f));
+  }
+  Index count() const { return static_cast<Index>(input_.corners.size()); }
+  Index wedge_count() const { return input_.wedge_count; }
+  Index origin(Index h) const { return input_.corners[h]; }
+  Index target(Index h) const {
+    const Index first = input_.face_first[face_[h]], end = input_.face_first[face_[h] + 1];
+    return input_.corners[h + 1 == end ? first : h + 1];
+  }
+  Index group(Index h) const { return input_.group.empty() ? 0 : input_.group[face_[h]]; }
+
+ private:
+  const PolygonInput& input_;
+  std::vector<Index> face_;
+};
+
+template <class Edges>
 class Pairing {
  public:
-  explicit Pairing(const StripInput& input)
-      : input_(input), graph_{std::vector<Index>(input.triangles.size(), kNone)} {}
+  explicit Pairing(Edges edges) : edges_(std::move(edges)), opposite_(edges_.count(), kNone) {}
 
-  DualGraph run() {
+  std::vector<Index> run() {
     file_by_lower_wedge();
     Index begin = 0;
     for (const Index end : end_) {
       pair_edges_of_wedge(begin, end);
       begin = end;
     }
-    return std::move(graph_);
+    return std::move(opposite_);
   }
 
  private:
-  Index origin(Index h) const { return input_.triangles[h]; }
-  Index target(Index h) const { return input_.triangles[next_in_triangle(h)]; }
+  Index origin(Index h) const { return edges_.origin(h); }
+  Index target(Index h) const { return edges_.target(h); }
   bool ascends(Index h) const { return origin(h) < target(h); }
-  Index group(Index h) const { return input_.group.empty() ? 0 : input_.group[triangle_of(h)]; }
+  Index group(Index h) const { return edges_.group(h); }
 
   void file_by_lower_wedge() {
-    const Index n = graph_.half_edge_count();
-    end_.resize(input_.wedge_count);
+    const Index n = edges_.count();
+    end_.resize(edges_.wedge_count());
     for (Index h = 0; h < n; ++h) {
-      assert(origin(h) < input_.wedge_count && origin(h) != target(h));
+      assert(origin(h) < edges_.wedge_count() && origin(h) != target(h));
       ++end_[std::min(origin(h), target(h))];
     }
     Index sum = 0;
@@ -69,8 +101,8 @@ class Pairing {
 
   void pair_two(Index a, Index b) {
     if (ascends(a) == ascends(b) || group(a) != group(b)) return;
-    graph_.opposite[a] = b;
-    graph_.opposite[b] = a;
+    opposite_[a] = b;
+    opposite_[b] = a;
   }
 
   void pair_many(Index begin, Index end) {
@@ -91,8 +123,8 @@ class Pairing {
     }
   }
 
-  const StripInput& input_;
-  DualGraph graph_;
+  Edges edges_;
+  std::vector<Index> opposite_;
   std::vector<Index> end_;  // per wedge: one past its last in filed_
   std::vector<Filed> filed_;
 };
@@ -102,7 +134,13 @@ class Pairing {
 DualGraph make_dual_graph(const StripInput& input) {
   assert(input.triangles.size() % 3 == 0 && input.triangles.size() <= kMaxCount);
   assert(input.group.empty() || input.group.size() == input.triangles.size() / 3);
-  return Pairing(input).run();
+  return {Pairing(TriangleEdges{input}).run()};
+}
+
+std::vector<Index> opposite_half_edges(const PolygonInput& input) {
+  assert(input.corners.size() <= kMaxCount);
+  assert(input.group.empty() || input.group.size() + 1 == input.face_first.size());
+  return Pairing(PolygonEdges(input)).run();
 }
 
 }  // namespace pstrip

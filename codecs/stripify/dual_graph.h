@@ -35,4 +35,8 @@ struct DualGraph {
 /// cost  O(n) on meshes, O(n log n) at worst (many triangles around one edge or vertex)
 DualGraph make_dual_graph(const StripInput& input);
 
+/// The same for polygons, where half-edge h runs from corner h of `input.corners` to the next one
+/// of its face.
+std::vector<Index> opposite_half_edges(const PolygonInput& input);
+
 }  // namespace pstrip
