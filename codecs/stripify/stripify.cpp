@@ -6,6 +6,7 @@
 #include "codecs/stripify/dstrips.h"
 #include "codecs/stripify/mstrip.h"
 #include "codecs/stripify/multi_path.h"
+#include "codecs/stripify/qstrip.h"
 #include "codecs/stripify/sgi.h"
 #include "codecs/stripify/tunneling.h"
 
@@ -32,6 +33,12 @@ constexpr NamedStripifier kStripifiers[] = {
      .run = multi_path_weighted,
      .uses_positions = true},
     {.name = "tunneling", .source = "[Stewart01 §3; Vanecek05 §2.2, §8.1 TUS]", .run = tunneling},
+    {.name = "qstrip",
+     .source = "[Vanecek05 §7.3]",
+     .run = qstrip,
+     .run_polygons = qstrip_polygons,
+     .honors_goal = true,
+     .uses_positions = true},
 };
 
 }  // namespace

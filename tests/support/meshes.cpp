@@ -1,5 +1,6 @@
 #include "tests/support/meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -102,6 +103,42 @@ Mesh random_soup(std::uint32_t seed, Index vertices, Index faces) {
     mesh.face_group.push_back(below(static_cast<Index>(mesh.groups.size())));
   }
   canonicalize(mesh);
+  return mesh;
+}
+
+Mesh polygon_soup(std::uint32_t seed, Index vertices, Index faces) {
+  Mesh mesh = random_soup(seed, vertices, 0);
+  std::mt19937 random(seed);
+  const auto below = [&](Index n) { return static_cast<Index>(random() % n); };
+  mesh.face_first.assign(1, 0);
+  for (Index f = 0; f < faces && vertices > 0; ++f) {
+    for (Index n = 3 + below(4); n > 0; --n) mesh.corners.push_back(below(mesh.wedge_count()));
+    mesh.face_first.push_back(static_cast<Index>(mesh.corners.size()));
+    mesh.face_group.push_back(below(static_cast<Index>(mesh.groups.size())));
+  }
+  canonicalize(mesh);
+  return mesh;
+}
+
+Mesh quad_mesh(std::vector<float> positions, std::vector<Index> corners) {
+  Mesh mesh = triangle_mesh(std::move(positions), std::move(corners));
+  for (Index first = 0; first <= mesh.corners.size(); first += 4) mesh.face_first.push_back(first);
+  return mesh;
+}
+
+Mesh joined_to_quads(const Mesh& triangles) {
+  Mesh mesh = triangles;
+  mesh.corners.clear();
+  mesh.face_first.assign(1, 0);
+  for (Index f = 0; f + 1 < triangles.face_count(); f += 2) {
+    const auto t = triangles.face(f), u = triangles.face(f + 1);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        if (t[i] == u[(j + 1) % 3] && t[(i + 1) % 3] == u[j])
+          mesh.corners.insert(mesh.corners.end(),
+                              {t[(i + 1) % 3], t[(i + 2) % 3], t[i], u[(j + 2) % 3]});
+    mesh.face_first.push_back(static_cast<Index>(mesh.corners.size()));
+  }
   return mesh;
 }
 

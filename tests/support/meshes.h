@@ -23,4 +23,14 @@ Mesh cube(bool uv);
 /// unused vertices, random wedges with a u16 attribute, up to three groups. Same seed, same mesh.
 Mesh random_soup(std::uint32_t seed, Index vertices, Index faces);
 
+/// The same with faces of three to six corners.
+Mesh polygon_soup(std::uint32_t seed, Index vertices, Index faces);
+
+/// A mesh of quads over float positions.
+Mesh quad_mesh(std::vector<float> positions, std::vector<Index> corners);
+
+/// Pairs of triangles, 2i and 2i + 1, joined to quads over the edge between: grid(), torus(),
+/// cube().
+Mesh joined_to_quads(const Mesh& triangles);
+
 }  // namespace pstrip::test

@@ -3,6 +3,7 @@
 #include "codecs/stripify/stats.h"
 #include "codecs/stripify/stripify.h"
 #include "tests/support/models.h"
+#include "tests/support/polygon_check.h"
 #include "tests/support/strip_check.h"
 
 namespace pstrip {
@@ -68,6 +69,31 @@ TEST(MStrip, StaysNearTheThesis) {
     ASSERT_EQ(test::find_strip_fault(mesh.input(), strips), "");
     EXPECT_LE(strip_stats(strips).strips, c.most_strips);
     EXPECT_LE(strip_stats(strips).entries, c.most_entries);
+  }
+}
+
+// A swap in three or four quads and few strips, as in the thesis. [Vanecek05 table 7.1]
+TEST(QStrip, MakesFewStripsOfQuads) {
+  struct Case {
+    const char* model;
+    std::uint64_t most_strips;
+    double most_entries_per_quad;
+  };
+  constexpr Case kCases[] = {{"quads/fertility_quad.obj", 10, 2.3},
+                             {"quads/horse_quad.obj", 10, 2.35},
+                             {"quads/spot_quadrangulated.obj", 20, 2.3},
+                             {"quads/beast.obj", 130, 2.3}};
+  if (!test::real_mesh(kCases[0].model)) GTEST_SKIP() << "the folder of real models is not there";
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.model);
+    const test::PolygonMesh mesh = test::polygon_mesh(*test::real_mesh(c.model));
+    const Strips strips =
+        find_stripifier("qstrip")->run_polygons(mesh.input(), {.goal = StripGoal::strips});
+    ASSERT_EQ(test::find_strip_fault(mesh.input(), strips), "");
+    const StripStats stats = strip_stats(strips);
+    EXPECT_LE(stats.strips, c.most_strips);
+    EXPECT_LE(static_cast<double>(stats.entries),
+              c.most_entries_per_quad * static_cast<double>(mesh.group.size()));
   }
 }
 
