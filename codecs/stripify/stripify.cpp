@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codecs/stripify/best.h"
+#include "codecs/stripify/delaunay.h"
 #include "codecs/stripify/dstrips.h"
 #include "codecs/stripify/mstrip.h"
 #include "codecs/stripify/multi_path.h"
@@ -41,13 +42,28 @@ constexpr NamedStripifier kStripifiers[] = {
      .uses_positions = true},
 };
 
+constexpr NamedPointStripifier kPointStripifiers[] = {
+    {.name = "delaunay", .source = "[Vanecek05 §3.2]", .run = delaunay_strips},
+};
+
+template <class Named>
+const Named* find_named(std::span<const Named> all, std::string_view name) {
+  const auto found = std::ranges::find(all, name, &Named::name);
+  return found == all.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::span<const NamedStripifier> stripifiers() { return kStripifiers; }
 
 const NamedStripifier* find_stripifier(std::string_view name) {
-  const auto* found = std::ranges::find(kStripifiers, name, &NamedStripifier::name);
-  return found == std::end(kStripifiers) ? nullptr : found;
+  return find_named(stripifiers(), name);
+}
+
+std::span<const NamedPointStripifier> point_stripifiers() { return kPointStripifiers; }
+
+const NamedPointStripifier* find_point_stripifier(std::string_view name) {
+  return find_named(point_stripifiers(), name);
 }
 
 }  // namespace pstrip

@@ -84,4 +84,18 @@ std::span<const NamedStripifier> stripifiers();
 /// nullptr when there is no such name.
 const NamedStripifier* find_stripifier(std::string_view name);
 
+/// Strips over points that have no triangles yet: x y z a point; entries are points.
+using PointStripifier = Strips (*)(std::span<const double> positions, const StripOptions&);
+
+struct NamedPointStripifier {
+  std::string_view name;
+  std::string_view source;
+  PointStripifier run;
+};
+
+std::span<const NamedPointStripifier> point_stripifiers();
+
+/// nullptr when there is no such name.
+const NamedPointStripifier* find_point_stripifier(std::string_view name);
+
 }  // namespace pstrip
