@@ -18,22 +18,13 @@ class Emitter {
   }
 
   Strips run() {
-    for (const Index t : triangles_by_group())
+    for (const Index t : triangles_by_group(input_))
       if (!done_[t] && is_end(t)) emit_strip_from(t);
     if (!strips_.empty()) strips_.pop_back();  // the last restart
     return std::move(strips_);
   }
 
  private:
-  std::vector<Index> triangles_by_group() const {
-    std::vector<Index> order(graph_.triangle_count());
-    std::iota(order.begin(), order.end(), Index{0});
-    if (!std::is_sorted(input_.group.begin(), input_.group.end()))
-      std::stable_sort(order.begin(), order.end(),
-                       [&](Index a, Index b) { return input_.group[a] < input_.group[b]; });
-    return order;
-  }
-
   // The link of triangle t that is not `entry`, or kNone.
   Index exit_of(Index t, Index entry) const {
     for (Index h = 3 * t; h < 3 * t + 3; ++h)
@@ -113,6 +104,15 @@ class Emitter {
 };
 
 }  // namespace
+
+std::vector<Index> triangles_by_group(const StripInput& input) {
+  std::vector<Index> order(input.triangles.size() / 3);
+  std::iota(order.begin(), order.end(), Index{0});
+  if (!std::is_sorted(input.group.begin(), input.group.end()))
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index a, Index b) { return input.group[a] < input.group[b]; });
+  return order;
+}
 
 Strips emit_strips(const StripInput& input, const DualGraph& graph, const Links& links) {
   return Emitter(input, graph, links).run();

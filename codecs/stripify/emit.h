@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "codecs/stripify/dual_graph.h"
 
@@ -15,6 +15,9 @@ using Links = std::vector<std::uint8_t>;
 inline void set_link(const DualGraph& graph, Links& links, Index h, bool on) {
   links[h] = links[graph.opposite[h]] = on;
 }
+
+/// All triangles in the order in which strips name their groups: ascending group, then index.
+std::vector<Index> triangles_by_group(const StripInput& input);
 
 /// Writes the strips out: in ascending order of group, then of the lower one of their two end
 /// triangles; from the end that costs fewer entries, from the lower one when both cost the same. A

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codecs/stripify/best.h"
+#include "codecs/stripify/cache.h"
 #include "codecs/stripify/delaunay.h"
 #include "codecs/stripify/dstrips.h"
 #include "codecs/stripify/mstrip.h"
@@ -40,6 +41,7 @@ constexpr NamedStripifier kStripifiers[] = {
      .run_polygons = qstrip_polygons,
      .honors_goal = true,
      .uses_positions = true},
+    {.name = "cache", .source = "ours, codecs/stripify/cache.h", .run = cache_strips},
 };
 
 constexpr NamedPointStripifier kPointStripifiers[] = {
