@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "codecs/stripify/face_strips.h"
@@ -79,7 +80,7 @@ class FaceWalk {
     free_.take(face);
     strip_.assign(1, {face, kNone, kNone});
   }
-  void start(const std::vector<FaceVisit>& row) { strip_ = row; }
+  void start(std::vector<FaceVisit> row) { strip_ = std::move(row); }
 
   /// Lets the strip grow at its end as long as a free face follows that it can pass: to the one
   /// with the lowest rank(exit, swaps), the first in order around the face among equals.
@@ -117,6 +118,8 @@ class FaceWalk {
     for (FaceVisit& visit : strip_) std::swap(visit.entry, visit.exit);
   }
 
+  /// The strip at hand.
+  const std::vector<FaceVisit>& strip() const { return strip_; }
   void finish() { visits_.insert(visits_.end(), strip_.begin(), strip_.end()); }
   const std::vector<FaceVisit>& visits() const { return visits_; }
 

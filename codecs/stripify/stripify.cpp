@@ -10,6 +10,7 @@
 #include "codecs/stripify/multi_path.h"
 #include "codecs/stripify/qstrip.h"
 #include "codecs/stripify/sgi.h"
+#include "codecs/stripify/stripe.h"
 #include "codecs/stripify/tunneling.h"
 
 namespace pstrip {
@@ -42,6 +43,16 @@ constexpr NamedStripifier kStripifiers[] = {
      .honors_goal = true,
      .uses_positions = true},
     {.name = "cache", .source = "ours, codecs/stripify/cache.h", .run = cache_strips},
+    {.name = "stripe-lookahead",
+     .source = "[Evans96; Vanecek05 §2.2, §8.1 STS]",
+     .run = stripe_lookahead,
+     .run_polygons = stripe_lookahead_polygons,
+     .uses_positions = true},
+    {.name = "stripe-noswap",
+     .source = "[Evans96; Vanecek05 §2.2, §8.1 STV]",
+     .run = stripe_noswap,
+     .run_polygons = stripe_noswap_polygons,
+     .uses_positions = true},
 };
 
 constexpr NamedPointStripifier kPointStripifiers[] = {

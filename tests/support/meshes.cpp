@@ -1,6 +1,7 @@
 #include "tests/support/meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -140,6 +141,44 @@ Mesh joined_to_quads(const Mesh& triangles) {
     mesh.face_first.push_back(static_cast<Index>(mesh.corners.size()));
   }
   return mesh;
+}
+
+Mesh voxel_torus(Index side) {
+  using Cell = std::array<Index, 3>;  // ~0 and side are outside
+  const auto is_in = [side](const Cell& c) {
+    double x[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (c[k] >= side) return false;
+      x[k] = (c[k] + 0.5) / side * 2 - 1;
+    }
+    const double r = std::hypot(x[0], x[1]) - 0.6;
+    return r * r + x[2] * x[2] < 0.08;
+  };
+  std::vector<float> positions;
+  std::vector<Index> corners, number(std::size_t{side + 1} * (side + 1) * (side + 1), kNone);
+  const auto vertex = [&](const Cell& c) {
+    Index& n = number[(std::size_t{c[0]} * (side + 1) + c[1]) * (side + 1) + c[2]];
+    if (n != kNone) return n;
+    for (const Index x : c) positions.push_back(static_cast<float>(x));
+    return n = static_cast<Index>(positions.size() / 3 - 1);
+  };
+  for (Index i = 0; i < side * side * side; ++i) {
+    const Cell cell{i / side / side, i / side % side, i % side};
+    if (!is_in(cell)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const bool above : {false, true}) {
+        Cell beside = cell, corner = cell;
+        beside[axis] += above ? 1 : ~Index{0};
+        if (is_in(beside)) continue;
+        corner[axis] += above;
+        const std::size_t u = (axis + (above ? 1 : 2)) % 3, v = 3 - axis - u;
+        for (const std::size_t step : {u, v, u, v}) {
+          corners.push_back(vertex(corner));
+          corner[step] = corner[step] == cell[step] ? cell[step] + 1 : cell[step];
+        }
+      }
+  }
+  return quad_mesh(std::move(positions), std::move(corners));
 }
 
 }  // namespace pstrip::test

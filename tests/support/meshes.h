@@ -33,4 +33,8 @@ Mesh quad_mesh(std::vector<float> positions, std::vector<Index> corners);
 /// cube().
 Mesh joined_to_quads(const Mesh& triangles);
 
+/// The outside of those cubes of a side³ block whose centre is in a torus, as quads: what a surface
+/// reconstructed from orthogonal slices looks like.
+Mesh voxel_torus(Index side);
+
 }  // namespace pstrip::test

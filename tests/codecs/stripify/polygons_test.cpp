@@ -244,6 +244,40 @@ TEST(PolygonStripifiers, ShowNoTriangleFromBothSides) {
     });
 }
 
+StripStats stats_of(const PolygonMesh& mesh, const char* name, StripGoal goal) {
+  const Strips strips = find_stripifier(name)->run_polygons(mesh.input(), {.goal = goal});
+  EXPECT_EQ(find_strip_fault(mesh.input(), strips), "");
+  return strip_stats(strips);
+}
+
+// The patch is the whole grid: a strip a row.
+TEST(Stripe, CoversAGridOfQuadsRowByRow) {
+  for (const char* name : {"stripe-lookahead", "stripe-noswap"}) {
+    const StripStats stats = stats_of(quads(test::grid(31)), name, StripGoal::indices);
+    EXPECT_EQ(stats.strips, 30u);
+    EXPECT_EQ(stats.swaps, 0u);
+  }
+}
+
+// Ten times fewer strips than STRIPE on surfaces from slices. [Vanecek05 table 7.1]
+TEST(QStrip, MakesFewerStripsThanStripe) {
+  const PolygonMesh mesh = test::polygon_mesh(test::voxel_torus(80));
+  const std::uint64_t strips = stats_of(mesh, "qstrip", StripGoal::strips).strips;
+  EXPECT_GE(stats_of(mesh, "stripe-lookahead", StripGoal::indices).strips, 8 * strips);
+  EXPECT_GE(stats_of(mesh, "stripe-noswap", StripGoal::indices).strips, 10 * strips);
+}
+
+// A straight row of quads needs no swap, a turn one, and the next turn the same way two.
+TEST(QStrip, PaysForTurnsAsInTheThesis) {  // [Vanecek05 figure 7.5]
+  const auto swaps = [](const std::vector<std::vector<Index>>& faces) {
+    return stats_of(polygons(20, faces), "qstrip", StripGoal::indices).swaps;
+  };
+  EXPECT_EQ(swaps({{0, 1, 2, 3}, {3, 2, 4, 5}, {5, 4, 6, 7}}), 0u);
+  EXPECT_EQ(swaps({{0, 1, 2, 3}, {3, 2, 4, 5}, {2, 8, 9, 4}}), 1u);
+  // A spiral of five quads: two turns to the same side with one quad between.
+  EXPECT_EQ(swaps({{0, 1, 2, 3}, {3, 2, 4, 5}, {2, 8, 9, 4}, {8, 10, 11, 9}, {10, 8, 12, 13}}), 3u);
+}
+
 // A hub polygon of 300,000 corners among quads, and as many quads around one edge: what is not
 // linear takes minutes.
 TEST(PolygonStripifiers, StayFastAroundOneFaceAndOneEdge) {
