@@ -6,6 +6,7 @@
 #include "codecs/stripify/cache.h"
 #include "codecs/stripify/delaunay.h"
 #include "codecs/stripify/dstrips.h"
+#include "codecs/stripify/ftsg.h"
 #include "codecs/stripify/mstrip.h"
 #include "codecs/stripify/multi_path.h"
 #include "codecs/stripify/qstrip.h"
@@ -35,6 +36,9 @@ constexpr NamedStripifier kStripifiers[] = {
      .source = "[Vanecek05 §5.1]",
      .run = multi_path_weighted,
      .uses_positions = true},
+    {.name = "ftsg", .source = "[Xiang99; Vanecek05 §2.2, §8.1]", .run = ftsg},
+    {.name = "ftsg-sgi", .source = "[Xiang99; Vanecek05 §2.2, §8.1 FTS]", .run = ftsg_sgi},
+    {.name = "ftsg-alt", .source = "[Xiang99; Vanecek05 §2.2, §8.1 FTV]", .run = ftsg_alt},
     {.name = "tunneling", .source = "[Stewart01 §3; Vanecek05 §2.2, §8.1 TUS]", .run = tunneling},
     {.name = "qstrip",
      .source = "[Vanecek05 §7.3]",

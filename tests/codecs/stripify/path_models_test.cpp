@@ -28,6 +28,10 @@ constexpr Band kBands[] = {
     {"multi-path-weighted", kBunny, 86, 30, 70, 1.33},
     {"tunneling", kCow, 19, 1, 6, 1.39},
     {"tunneling", kBunny, 166, 8, 35, 1.30},
+    {"ftsg-sgi", kCow, 105, 80, 120, 1.34},
+    {"ftsg-sgi", kBunny, 618, 520, 700, 1.25},
+    {"ftsg-alt", kCow, 312, 260, 380, 1.31},
+    {"ftsg-alt", kBunny, 3238, 2700, 3700, 1.23},
 };
 
 TEST(PathStripifiers, StayNearThePublishedFigures) {
