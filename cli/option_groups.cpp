@@ -83,6 +83,12 @@ void StripOptionsGroup::add_to(CLI::App& app) {
       ->check(CLI::IsMember({"topological", "axis"}))
       ->capture_default_str()
       ->group(kGroup);
+  app.add_option("--tunnel-length", tunnel_length, "Most dual edges of a tunnel; 0 is no tunnels")
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--tunnel-effort", tunnel_effort, "Steps of the search for tunnels, per triangle")
+      ->capture_default_str()
+      ->group(kGroup);
   app.add_option("--time-limit", time_limit,
                  "Cut the search after so many seconds, if only by a part of it; 0 is never")
       ->check(CLI::NonNegativeNumber)
@@ -95,6 +101,8 @@ Result<StripOptions> StripOptionsGroup::get() const {
   out.goal = goal == "strips" ? StripGoal::strips : StripGoal::indices;
   out.strip_price = price;
   out.weight = weight == "axis" ? StripWeight::axis : StripWeight::topological;
+  out.tunnel_length = tunnel_length;
+  out.tunnel_effort = tunnel_effort;
   out.stop = stop_after(time_limit, was_cut);
   if (effort == "fast" || effort == "high" || effort == "max") {
     out.effort = effort == "fast" ? kEffortFast : effort == "high" ? kEffortHigh : kEffortMax;

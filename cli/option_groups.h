@@ -48,13 +48,15 @@ struct LevelOptions {
 /// True from `seconds` after the call on, and then notes it in `*was_cut`; empty for 0 seconds.
 std::function<bool()> stop_after(double seconds, std::shared_ptr<bool> was_cut);
 
-/// --goal, --strip-effort, --strip-price, --strip-weight, --time-limit: how hard the stripifier
-/// tries, and for what.
+/// --goal, --strip-effort, --strip-price, --strip-weight, --tunnel-length, --tunnel-effort,
+/// --time-limit: how hard the stripifier tries, and for what.
 struct StripOptionsGroup {
   std::string goal = "indices";
   std::string effort = "fast";
   std::uint32_t price = 3;
   std::string weight = "topological";
+  std::uint32_t tunnel_length = StripOptions{}.tunnel_length;
+  std::uint32_t tunnel_effort = StripOptions{}.tunnel_effort;
   double time_limit = 0;                                          ///< seconds; 0: none
   std::shared_ptr<bool> was_cut = std::make_shared<bool>(false);  ///< by the time limit
   void add_to(CLI::App& app);
