@@ -76,6 +76,34 @@ TEST(MStrip, StaysNearTheThesis) {
   }
 }
 
+TEST(PolygonStripifiers, CoverRealModelsOnce) {
+  constexpr const char* kModels[] = {"quads/beast.obj",
+                                     "quads/cube_40k.obj",
+                                     "quads/cross_quad.obj",
+                                     "quads/double-torus-3-holes.obj",
+                                     "quads/halftunnel.obj",
+                                     "quads/hole.obj",
+                                     "quads/moebius.obj",
+                                     "quads/mpi.obj",
+                                     "quads/torus_quad.obj",
+                                     "quads/suzanne/suzanne.obj",
+                                     "textured/pirate/pirate.obj",
+                                     "nasty/topology/office_chair.obj",
+                                     "classic/cow_polygons_normals.obj"};
+  if (!test::real_mesh(kModels[0])) GTEST_SKIP() << "the folder of real models is not there";
+  for (const char* model : kModels) {
+    const auto mesh = test::real_mesh(model);
+    ASSERT_TRUE(mesh) << model;
+    const test::PolygonMesh faces = test::polygon_mesh(*mesh);
+    for (const NamedStripifier& stripifier : stripifiers()) {
+      if (stripifier.run_polygons == nullptr) continue;
+      SCOPED_TRACE(testing::Message() << stripifier.name << " of " << model);
+      EXPECT_EQ(test::find_strip_fault(faces.input(), stripifier.run_polygons(faces.input(), {})),
+                "");
+    }
+  }
+}
+
 // A swap in three or four quads and few strips, as in the thesis. [Vanecek05 table 7.1]
 TEST(QStrip, MakesFewStripsOfQuads) {
   struct Case {
