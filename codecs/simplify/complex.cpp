@@ -26,7 +26,7 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
       slot_(points.size()) {
   assert(triangles.size() / 3 < kMaxCount / 4);
   // Halved, so that the extent of the largest doubles is still one.
-  double low[3], high[3];
+  double high[3];
   std::fill_n(low, 3, std::numeric_limits<double>::max());
   std::fill_n(high, 3, std::numeric_limits<double>::lowest());
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -79,6 +79,16 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
       VertexRecord& v = vertices[corner_vertex[c]];
       pool_[v.ring + v.ring_size++] = c;
     }
+}
+
+std::array<double, 3> Complex::model_position(Index vertex) const {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const Vec3f& p = points[vertex].position;
+  const auto unscaled = [&](float x, int k) {
+    const double half = x / (2 * scale[0]) / scale[1] + low[k];
+    return std::clamp(2 * half, -kMost, kMost);
+  };
+  return {unscaled(p.x, 0), unscaled(p.y, 1), unscaled(p.z, 2)};
 }
 
 void Complex::gather(Index vertex, Star& star) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -18,6 +19,14 @@ struct Spoke {
                   ///< for the edge to `next` and to `previous`
 };
 
+/// What speaks against a collapse.
+enum class Guard : std::uint8_t {
+  none,
+  border,  ///< a vertex leaves the border, or a place where several borders meet
+  link,    ///< the topology changes, or two faces become one
+  flip,    ///< a face turns too far or becomes a sliver
+};
+
 /// An edge at a vertex.
 struct StarEdge {
   Index vertex;         ///< the other end
@@ -25,7 +34,8 @@ struct StarEdge {
   Index outgoing;       ///< of them, those that run along it away from the vertex
   Index first = kNone;  ///< as Spoke::more
   float cost = 0, error = 0;
-  std::uint8_t refused = 0;  ///< guard that did, 0 none
+  Vec3f place = {};  ///< offset from the star's vertex of where the collapse would leave it
+  Guard refused = Guard::none;
 };
 
 /// The live triangles and edges around one vertex; scratch memory.
@@ -78,6 +88,7 @@ class Complex {
   std::vector<Index> corner_vertex;
   /// A model unit is 1 / (scale[0] · scale[1]) of ours; each a power of two.
   double scale[2] = {1, 1};
+  double low[3] = {};   ///< half of the model's least coordinates
   double diagonal = 0;  ///< of the bounding box, in our units
 
   Index vertex_count() const { return static_cast<Index>(vertices.size()); }
@@ -89,6 +100,8 @@ class Complex {
 
   /// The vector from `from` to `to`.
   Vec3f offset(Index from, Index to) const { return points[to].position - points[from].position; }
+  /// Where a vertex stands, in model units; finite.
+  std::array<double, 3> model_position(Index vertex) const;
   bool is_locked(Index vertex) const { return std::isinf(points[vertex].error); }
 
   /// Fetch into the cache what is going to be asked for soon. Collapses jump all over the mesh: on
@@ -150,7 +163,7 @@ inline void Complex::gather_regular(Index vertex, Star& star) {
     StarEdge& edge = star.edge_buffer[live];
     edge.vertex = spoke.next;
     edge.triangles = 2;
-    edge.refused = 0;
+    edge.refused = Guard::none;
     ++live;
   }
   vertices[vertex].ring_size = live;

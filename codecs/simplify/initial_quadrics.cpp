@@ -14,9 +14,21 @@ constexpr float kSeamWeight = 1;
 
 }  // namespace
 
-QuadricBuilder::QuadricBuilder(Complex& complex, const SimplifyInput& input, WedgeTable* wedges)
-    : complex_(complex), input_(input), wedges_(wedges), normals_(complex.triangle_count()) {
+QuadricBuilder::QuadricBuilder(Complex& complex, const SimplifyInput& input, WedgeTable* wedges,
+                               Quadric* attribute_quadrics)
+    : complex_(complex),
+      input_(input),
+      wedges_(wedges),
+      attribute_quadrics_(attribute_quadrics),
+      faces_(complex.triangle_count()) {
   for (Index t = 0; t < complex.triangle_count(); ++t) add_face(t);
+}
+
+void QuadricBuilder::update(Index t) {
+  const Index* const v = &complex_.corner_vertex[4 * t];
+  const Vec3f n = cross(complex_.offset(v[0], v[1]), complex_.offset(v[0], v[2]));
+  const float length = std::sqrt(dot(n, n));
+  faces_[t] = length > 0 ? Face{n * (1 / length), length / 2} : Face{};
 }
 
 void QuadricBuilder::add_face(Index t) {
@@ -28,9 +40,10 @@ void QuadricBuilder::add_face(Index t) {
   const Vec3f n = cross(e1, e2);
   const float length = std::sqrt(dot(n, n));
   if (!(length > 0)) return;
-  normals_[t] = n * (1 / length);
   const float area = length / 2;
-  for (const Index corner_v : v) complex_.vertices[corner_v].quadric.add_plane(normals_[t], area);
+  faces_[t] = {n * (1 / length), area};
+  for (const Index corner_v : v)
+    complex_.vertices[corner_v].quadric.add_plane(faces_[t].normal, area);
   if (wedges_) add_attributes(c, v, e1, e2, n, area);
 }
 
@@ -52,18 +65,19 @@ void QuadricBuilder::add_attributes(Index c, const Index (&v)[3], Vec3f e1, Vec3
     for (int i = 0; i < 3; ++i) {
       complex_.vertices[v[i]].quadric.add_plane(gradient, area);
       complex_.vertices[v[i]].quadric.weight -= area;  // counted once, with the face
+      if (attribute_quadrics_) attribute_quadrics_[v[i]].add_plane(gradient, area);
       wedges_->add_gradient(w[i], k, gradient * area);
     }
   }
 }
 
-void QuadricBuilder::add_edges(const Star& star) {
+void QuadricBuilder::add_edges(const Star& star, Quadric& quadric) {
   if (complex_.is_locked(star.vertex)) return;
   for (const StarEdge& edge : star.edges)
-    if (!complex_.is_locked(edge.vertex)) add_edge(star, edge);
+    if (!complex_.is_locked(edge.vertex)) add_edge(star, edge, quadric);
 }
 
-void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge) {
+void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& quadric) {
   float weight = kBorderWeight;
   if (edge.triangles == 2) {
     const Index second = edge.first, first = star.spokes[second / 2].more[second % 2];
@@ -75,11 +89,10 @@ void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge) {
     if (weight == 0) return;
   }
   const Vec3f along = complex_.offset(star.vertex, edge.vertex);
-  Quadric& quadric = complex_.vertices[star.vertex].quadric;
   const float length_squared = dot(along, along);
   weight *= length_squared / static_cast<float>(edge.triangles);
   for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
-    const Vec3f face = normals_[star.spokes[i / 2].corner / 4];
+    const Vec3f face = faces_[star.spokes[i / 2].corner / 4].normal;
     const Vec3f side = cross(along, face);
     const float length = std::sqrt(dot(side, side));
     if (length > 0)
@@ -92,7 +105,7 @@ void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge) {
 // Faces that lie on each other, back to back, do not hold their common edge; beyond a right angle
 // it needs holding more and more.
 float QuadricBuilder::fold_weight(Index a, Index b, bool same_direction) const {
-  const float cosine = dot(normals_[a], normals_[b]) * (same_direction ? -1.f : 1.f);
+  const float cosine = dot(faces_[a].normal, faces_[b].normal) * (same_direction ? -1.f : 1.f);
   return kBorderWeight * std::max(0.f, -cosine);
 }
 

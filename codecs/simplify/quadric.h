@@ -6,6 +6,7 @@ struct Vec3f {
   float x = 0, y = 0, z = 0;
 };
 
+inline Vec3f operator+(Vec3f a, Vec3f b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3f operator-(Vec3f a, Vec3f b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3f operator*(Vec3f a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 inline float dot(Vec3f a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
@@ -44,6 +45,12 @@ struct Quadric {
   float at(Vec3f d) const {
     const Vec3f a = times(d);
     return dot(d, {a.x + 2 * b.x, a.y + 2 * b.y, a.z + 2 * b.z});
+  }
+
+  /// The owner moves. Its constant term grows by at(offset), taken before.
+  void move(Vec3f offset) {
+    const Vec3f a = times(offset);
+    b.x += a.x, b.y += a.y, b.z += a.z;
   }
 
   /// Adds one whose owner stands at `offset` from this one's. The constant term of the sum grows by

@@ -38,16 +38,50 @@ float WedgeTable::largest_difference(Index a, Index b) const {
   return largest;
 }
 
-float WedgeTable::cost(Index wedge, Index to, Vec3f offset) const {
+float WedgeTable::live_weight(const Star& star) {
   float sum = 0;
-  for (std::uint32_t k = 0; k < count_; ++k) {
-    const Term& term = terms_[std::size_t{wedge} * count_ + k];
-    const float a = attribute(to, k) - attribute(wedge, k);
-    sum += a * (a * weight_[wedge] - 2 * (dot(term.g, offset) + term.d));
+  new_epoch();
+  for (const Spoke& spoke : star.spokes) {
+    const Index wedge = corner_wedge[spoke.corner];
+    if (is_marked(wedge)) continue;
+    mark(wedge, kNone);
+    sum += weight_[wedge];
   }
   return sum;
 }
 
+WedgeTable::Cost WedgeTable::cost(const Star& star, const StarEdge& edge) {
+  const auto for_each_triangle = [&](auto&& visit) {
+    for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
+      const Index corner = star.spokes[i / 2].corner;
+      visit(corner, i % 2 == 0 ? Complex::next(corner) : Complex::previous(corner));
+    }
+  };
+  new_epoch();
+  for_each_triangle([&](Index from, Index to) { mark_first(from, to); });
+  Cost sum;
+  for_each_triangle([&](Index from, Index to) {
+    const Index wedge = corner_wedge[from], first = other(wedge);
+    if (first == to) {
+      sum.mapped_weight += weight_[wedge];
+      add_cost(wedge, corner_wedge[to], sum);
+    } else if (corner_wedge[first] != corner_wedge[to]) {
+      sum.conflicts += conflict(wedge, corner_wedge[first], corner_wedge[to]);
+    }
+  });
+  return sum;
+}
+
+void WedgeTable::add_cost(Index wedge, Index to, Cost& sum) const {
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    const Term& term = terms_[std::size_t{wedge} * count_ + k];
+    const float a = attribute(to, k) - attribute(wedge, k);
+    sum.constant += a * (a * weight_[wedge] - 2 * term.d);
+    sum.linear = sum.linear - term.g * a;
+  }
+}
+
+// What merging two values costs.
 float WedgeTable::conflict(Index wedge, Index a, Index b) const {
   float sum = 0;
   for (std::uint32_t k = 0; k < count_; ++k) {

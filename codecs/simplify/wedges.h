@@ -36,16 +36,28 @@ class WedgeTable {
   }
   float weight(Index wedge) const { return weight_[wedge]; }
 
-  /// What a wedge's attributes add to the error when its vertex moves by `offset` and `to` takes
-  /// its place; may be negative, since the other part is in the vertex's quadric.
-  float cost(Index wedge, Index to, Vec3f offset) const;
-  /// What merging two values costs.
-  float conflict(Index wedge, Index a, Index b) const;
+  /// What the wedges at a star's vertex add to the error when the vertex goes along an edge and
+  /// ends at `x`: constant + 2 linear·x, which may be negative, since the other part is in the
+  /// vertex's quadric.
+  struct Cost {
+    float constant = 0;
+    Vec3f linear;
+    float conflicts = 0;      ///< what merging different values costs, not part of the error
+    float mapped_weight = 0;  ///< of the wedges that others replace
+    float at(Vec3f x) const { return constant + 2 * dot(linear, x); }
+  };
+  Cost cost(const Star& star, const StarEdge& edge);
+  /// Of all wedges that the star uses.
+  float live_weight(const Star& star);
 
+  /// A vertex and its wedges move by `offset`.
+  void move(Index vertex, Vec3f offset) {
+    for (Index wedge = first_[vertex]; wedge != kNone; wedge = next_[wedge]) carry(wedge, offset);
+  }
   /// Performs the half of a collapse that concerns wedges: records a move of every wedge at the
   /// star's vertex, `kept` being the other vertex, and renames the surviving corners.
   ///
-  /// offset   from the star's vertex to `kept`
+  /// offset   from the star's vertex to where `kept` stands, after a move() if it moved
   /// quadric  of the star's vertex; its linear term is moved to the new attribute values
   void collapse(const Complex& complex, const Star& star, Index kept, Vec3f offset,
                 Quadric& quadric, std::vector<WedgeMove>& moves);
@@ -68,6 +80,8 @@ class WedgeTable {
     Vec3f g;
     float d = 0;
   };
+  void add_cost(Index wedge, Index to, Cost& sum) const;
+  float conflict(Index wedge, Index a, Index b) const;
   void replace(Index wedge, Index to, Vec3f offset, Quadric& quadric);
   void carry(Index wedge, Vec3f offset);
 

@@ -44,5 +44,17 @@ TEST(Quadric, AddsOneThatStandsElsewhere) {
   EXPECT_FLOAT_EQ(sum.weight, 5.5f);
 }
 
+TEST(Quadric, StaysTheSameWhenItsOwnerMoves) {
+  Quadric here;
+  here.add_plane(kNormal, 2);
+  here.add_plane(kOther, 3);
+  here.b = {1, -2, 0.5f};
+  const Vec3f offset = {0.5f, 3, -1};
+  Quadric moved = here;
+  moved.move(offset);
+  for (const Vec3f x : {Vec3f{0, 0, 0}, Vec3f{1, 2, 3}})
+    EXPECT_NEAR(moved.at(x - offset) + here.at(offset), here.at(x), 1e-4);
+}
+
 }  // namespace
 }  // namespace pstrip

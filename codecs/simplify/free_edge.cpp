@@ -1,0 +1,461 @@
+// Edge collapses that place the vertex where it fits best.
+//
+// [Garland97] the quadric error metric and its minimum, [Lindstrom98; Lindstrom99] the memoryless
+// metric: no history, only the faces there are, and their volume kept.
+#include "codecs/simplify/free_edge.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "codecs/simplify/complex.h"
+#include "codecs/simplify/guards.h"
+#include "codecs/simplify/initial_quadrics.h"
+#include "codecs/simplify/placement.h"
+#include "codecs/simplify/vertex_heap.h"
+#include "codecs/simplify/wedges.h"
+
+namespace pstrip {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// As for half edges.
+constexpr float kLengthShare = 1e-9f;
+constexpr float kCarriedShare = 1e-2f;
+constexpr float kForcedShare = 1;
+constexpr int kMostGuardChecks = 16;
+constexpr std::size_t kProgressInterval = 4096;
+
+float rounded_down(float error) {
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
+}
+
+// The faces and open edges that are around a vertex now: planes through it, and the sum of the
+// faces' areas as vectors.
+struct alignas(64) Surroundings {
+  Quadric planes;
+  Vec3f area;
+};
+
+class EdgeSimplifier {
+ public:
+  EdgeSimplifier(const SimplifyInput& input, const SimplifyOptions& options)
+      : input_(input),
+        options_(options),
+        memoryless_(options.metric == Metric::memoryless),
+        free_(options.placement == Placement::free),
+        complex_(input.positions, input.wedge_vertex, input.triangles) {
+    if (!input.wedge_vertex.empty() || input.attribute_count > 0)
+      wedges_.emplace(input, complex_.diagonal);
+    if (memoryless_) around_.resize(complex_.vertex_count());
+    if (memoryless_ && input.attribute_count > 0) {
+      attribute_quadrics_.resize(complex_.vertex_count());
+      attribute_errors_.resize(complex_.vertex_count());
+    }
+    large_.resize(complex_.vertex_count());
+    for (Index v = 0; v < large_.size(); ++v)
+      large_[v] = complex_.vertices[v].ring_size > kLargeRing;
+    if (free_) moved_.resize(complex_.vertex_count());
+    out_.triangles_left = input.triangles.size() / 3;
+    if (options.max_error >= 0) {
+      const double limit = options.max_error * complex_.scale[0] * complex_.scale[1];
+      most_error_ = static_cast<float>(std::min(limit * limit, 1e30));
+    }
+  }
+
+  CollapseSequence run(const Progress& progress);
+
+ private:
+  struct Sum {
+    Quadric quadric;     // relative to the removed vertex
+    float constant = 0;  // its constant term
+    Volume volume;
+  };
+
+  void fill_heap();
+  // Whether it is too costly to know what is around a vertex.
+  bool is_large(Index v) const { return large_[v] != 0; }
+  bool has_line_terms(Index v) const {
+    return wedges_ || !input_.group.empty() || !complex_.states[v].regular;
+  }
+  void gather(Index v, Star& star);
+  void survey(Index v, const Star& star);
+  void survey(Index v);
+  float evaluate(const Star& star);
+  void price(const Star& star, StarEdge& edge, float live_weight);
+  Sum sum_of(const Star& star, const StarEdge& edge) const;
+  float history_error(Index q, Index p, Vec3f place) const;
+  const StarEdge* choose(Index q, float limit);
+  void collapse(Index q, const StarEdge& edge);
+  void join_quadrics(Index q, Index p, Vec3f place, float wedge_constant);
+  void note_collapse(Index q, Index p, std::size_t first_move);
+  void look_around(Index p, bool has_moved);
+  void lower_key(Index x, float key);
+  void set_key(Index x, float key);
+  std::array<double, 3> input_position(Index v) const {
+    return {input_.positions[3 * std::size_t{v}], input_.positions[3 * std::size_t{v} + 1],
+            input_.positions[3 * std::size_t{v} + 2]};
+  }
+
+  const SimplifyInput& input_;
+  const SimplifyOptions& options_;
+  const bool memoryless_, free_;
+  Complex complex_;
+  Guards guards_{complex_};
+  std::optional<WedgeTable> wedges_;  // none when each vertex has one wedge and no attributes
+  std::optional<QuadricBuilder> builder_;
+  std::optional<VertexHeap> heap_;
+  std::vector<Surroundings> around_;         // memoryless: of all vertices whose ring is not large
+  std::vector<Quadric> attribute_quadrics_;  // memoryless: what attributes demand, accumulated
+  std::vector<float> attribute_errors_;      // and their constant terms
+  std::vector<std::uint8_t> large_, moved_;
+  float most_error_ = kInfinity;  // squared, in the complex's units
+
+  Star star_, kept_star_, scratch_;
+  std::vector<Index> moved_corners_;
+  float last_error_ = 0;
+  CollapseSequence out_;
+};
+
+CollapseSequence EdgeSimplifier::run(const Progress& progress) {
+  const std::uint64_t start = out_.triangles_left, target = options_.target_triangles;
+  if (start <= target) return std::move(out_);
+  fill_heap();
+  out_.stop = SimplifyStop::exhausted;
+  while (!heap_->empty()) {
+    const Index q = heap_->top();
+    gather(q, star_);
+    evaluate(star_);
+    const StarEdge* const edge = choose(q, heap_->second_key());
+    if (!edge) continue;
+    collapse(q, *edge);
+    if (out_.triangles_left <= target) {
+      out_.stop = SimplifyStop::target;
+      break;
+    }
+    if (progress && out_.collapses.size() % kProgressInterval == 0 &&
+        !progress("simplify", static_cast<double>(start - out_.triangles_left) /
+                                  static_cast<double>(start - target))) {
+      out_.stop = SimplifyStop::interrupted;
+      break;
+    }
+  }
+  if (out_.stop == SimplifyStop::exhausted && out_.triangles_left > 0 && most_error_ < kInfinity)
+    out_.stop = SimplifyStop::max_error;
+  return std::move(out_);
+}
+
+void EdgeSimplifier::gather(Index v, Star& star) {
+  if (has_line_terms(v))
+    complex_.gather(v, star);
+  else
+    complex_.gather_regular(v, star);
+  if (is_large(v) && star.spokes.size() <= kLargeRing) {
+    large_[v] = 0;
+    if (memoryless_) survey(v, star);
+  }
+}
+
+void EdgeSimplifier::fill_heap() {
+  builder_.emplace(complex_, input_, wedges_ ? &*wedges_ : nullptr,
+                   attribute_quadrics_.empty() ? nullptr : attribute_quadrics_.data());
+  for (Index v = 0; v < complex_.vertex_count(); ++v) {
+    complex_.gather(v, star_);
+    complex_.states[v].regular =
+        star_.open_edges == 0 &&
+        std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
+    builder_->add_edges(star_);
+    if (memoryless_) survey(v, star_);
+  }
+  std::vector<float> keys(complex_.vertex_count(), kInfinity);
+  for (Index v = 0; v < keys.size(); ++v) {
+    if (complex_.is_locked(v)) continue;
+    gather(v, star_);
+    keys[v] = evaluate(star_);
+    complex_.vertices[v].key = keys[v];
+  }
+  heap_.emplace(keys);
+}
+
+void EdgeSimplifier::survey(Index v, const Star& star) {
+  Surroundings& around = around_[v];
+  around = {};
+  for (const Spoke& spoke : star.spokes) {
+    const QuadricBuilder::Face& face = builder_->face(spoke.corner / 4);
+    around.planes.add_plane(face.normal, face.area);
+    around.area = around.area + face.normal * face.area;
+  }
+  if (has_line_terms(v)) builder_->add_edges(star, around.planes);
+}
+
+// What faces around a vertex there are, after some have changed.
+void EdgeSimplifier::survey(Index v) {
+  if (is_large(v)) return;
+  gather(v, scratch_);
+  survey(v, scratch_);
+}
+
+// Fills costs and places of the star's edges, guards aside; returns the least cost.
+float EdgeSimplifier::evaluate(const Star& star) {
+  const float live_weight = wedges_ ? wedges_->live_weight(star) : 0;
+  float least = kInfinity;
+  for (StarEdge& edge : star.edges) {
+    price(star, edge, live_weight);
+    least = std::min(least, edge.cost);
+  }
+  return least;
+}
+
+// The error as a function of where the edge's end is placed; for the memoryless metric each face
+// around the edge counts once.
+EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edge) const {
+  const Index q = star.vertex, p = edge.vertex;
+  const Vec3f offset = complex_.offset(q, p);
+  Sum sum;
+  if (!memoryless_) {
+    const Quadric& kept = complex_.vertices[p].quadric;
+    sum.quadric = complex_.vertices[q].quadric;
+    sum.quadric.add(kept, offset);
+    sum.constant = complex_.states[q].error + complex_.states[p].error + kept.at(offset * -1);
+    return sum;
+  }
+  const Surroundings &mine = around_[q], &its = around_[p];
+  sum.quadric = mine.planes;
+  sum.quadric.add(its.planes, offset);
+  sum.constant = its.planes.at(offset * -1);
+  sum.volume = {mine.area + its.area, dot(its.area, offset)};
+  for (const Spoke& spoke : star.spokes) {
+    if (spoke.next != p && spoke.previous != p) continue;
+    const QuadricBuilder::Face& face = builder_->face(spoke.corner / 4);
+    sum.quadric.add_plane(face.normal, -face.area);
+    sum.volume.area = sum.volume.area - face.normal * face.area;
+  }
+  if (!attribute_quadrics_.empty()) {
+    sum.quadric.add(attribute_quadrics_[q], {});
+    sum.quadric.add(attribute_quadrics_[p], offset);
+    sum.constant +=
+        attribute_errors_[q] + attribute_errors_[p] + attribute_quadrics_[p].at(offset * -1);
+  }
+  return sum;
+}
+
+void EdgeSimplifier::price(const Star& star, StarEdge& edge, float live_weight) {
+  const Index q = star.vertex, p = edge.vertex;
+  if (complex_.is_locked(p)) {
+    edge.cost = kInfinity;
+    return;
+  }
+  const Vec3f offset = complex_.offset(q, p);
+  WedgeTable::Cost wedge_cost;
+  if (wedges_) wedge_cost = wedges_->cost(star, edge);
+  float weight = complex_.vertices[q].quadric.weight;
+  float error = 0;
+  edge.place = offset;
+  if (is_large(q) || is_large(p)) {
+    // What is around a large ring is not known. Its vertex stays, and its own error counts little.
+    const VertexRecord& record = complex_.vertices[q];
+    error = complex_.states[q].error + record.quadric.at(offset) +
+            rounded_down(complex_.states[p].error);
+  } else {
+    Sum sum = sum_of(star, edge);
+    sum.quadric.b = sum.quadric.b + wedge_cost.linear;
+    sum.constant += wedge_cost.constant;
+    if (free_) edge.place = best_place(sum.quadric, sum.volume, offset);
+    error = sum.constant + sum.quadric.at(edge.place);
+    if (memoryless_) weight = around_[q].planes.weight;
+  }
+  const float length = dot(offset, offset);
+  const float carried = wedges_ ? std::max(0.f, live_weight - wedge_cost.mapped_weight) : 0.f;
+  edge.error = std::max(error, 0.f);
+  edge.cost = edge.error + kLengthShare * weight * length + wedge_cost.conflicts +
+              kCarriedShare * carried * length;
+  if (!(edge.cost < kInfinity)) edge.cost = kInfinity;
+  if (most_error_ < kInfinity) {
+    const float after = history_error(q, p, edge.place) + wedge_cost.at(edge.place);
+    const float all = complex_.vertices[q].quadric.weight + complex_.vertices[p].quadric.weight;
+    if (after > most_error_ * all) edge.cost = kInfinity;
+  }
+}
+
+// What all faces ever replaced say of a place, given relative to q.
+float EdgeSimplifier::history_error(Index q, Index p, Vec3f place) const {
+  const Vec3f kept_place = place - complex_.offset(q, p);
+  return complex_.states[q].error + complex_.vertices[q].quadric.at(place) +
+         complex_.states[p].error + complex_.vertices[p].quadric.at(kept_place);
+}
+
+// The edge to collapse now that q is on top of the heap, all others having a key of at least
+// `limit`. Refused edges are made dearer and compared again. Null after q was put back or dropped.
+const StarEdge* EdgeSimplifier::choose(Index q, float limit) {
+  const bool large = is_large(q);
+  for (int checks = 0;; ++checks) {
+    StarEdge* best = nullptr;
+    for (StarEdge& edge : star_.edges)
+      if (!best || edge.cost < best->cost ||
+          (edge.cost == best->cost && edge.vertex < best->vertex))
+        best = &edge;
+    if (!best || best->cost == kInfinity) {
+      heap_->remove(q);
+      complex_.vertices[q].key = kInfinity;
+      return nullptr;
+    }
+    if (best->cost > limit) {
+      // A large ring comes up less often when its key is a little too high.
+      set_key(q, large ? best->cost * 1.25f : best->cost);
+      return nullptr;
+    }
+    if (best->refused != Guard::none) return best;
+    const bool give_up = large && checks == kMostGuardChecks;
+    for (StarEdge& edge : star_.edges) {
+      if (give_up ? edge.refused != Guard::none : &edge != best) continue;
+      const Vec3f offset = complex_.offset(q, edge.vertex);
+      const Guard refused =
+          give_up ? Guard::flip : guards_.check(star_, edge, edge.place, edge.place - offset);
+      if (refused == Guard::none) return best;
+      count(out_.refused, refused);
+      edge.refused = refused;
+      edge.cost += kForcedShare * complex_.vertices[q].quadric.weight * dot(offset, offset);
+    }
+  }
+}
+
+void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
+  const Index p = edge.vertex;
+  const Vec3f place = edge.place, shift = place - complex_.offset(q, p);
+  const bool has_moved = shift.x != 0 || shift.y != 0 || shift.z != 0;
+  const std::size_t first_move = out_.moves.size();
+  WedgeTable::Cost wedge_cost;
+  if (wedges_) wedge_cost = wedges_->cost(star_, edge);
+
+  moved_corners_.clear();
+  for (const Spoke& spoke : star_.spokes) {
+    if (spoke.next == p || spoke.previous == p) {
+      complex_.kill(spoke.corner);
+      --out_.triangles_left;
+    } else {
+      complex_.corner_vertex[spoke.corner] = p;
+      moved_corners_.push_back(spoke.corner);
+    }
+  }
+  Quadric& from = complex_.vertices[q].quadric;
+  const Vec3f linear = from.b;
+  if (wedges_) {
+    wedges_->move(p, shift);
+    wedges_->collapse(complex_, star_, p, place, from, out_.moves);
+  } else {
+    out_.moves.push_back({q, p});
+  }
+  if (!attribute_quadrics_.empty())
+    attribute_quadrics_[q].b = attribute_quadrics_[q].b + (from.b - linear);
+  join_quadrics(q, p, place, wedge_cost.constant);
+  complex_.append(p, moved_corners_);
+  if (complex_.vertices[p].ring_size > kLargeRing) large_[p] = 1;
+  complex_.vertices[q].ring_size = 0;
+  heap_->remove(q);
+  count(out_.forced, edge.refused);
+  if (edge.refused != Guard::none) {
+    complex_.states[p].regular = false;
+    for (const StarEdge& other : star_.edges) complex_.states[other.vertex].regular = false;
+  }
+  complex_.states[p].regular &= complex_.states[q].regular;
+  if (has_moved) {
+    complex_.points[p].position = complex_.points[p].position + shift;
+    moved_[p] = 1;
+  }
+  note_collapse(q, p, first_move);
+  look_around(p, has_moved);
+}
+
+// The constant terms grow by what the moves cost; what other values of attributes cost is in the
+// linear terms already but for `wedge_constant`.
+void EdgeSimplifier::join_quadrics(Index q, Index p, Vec3f place, float wedge_constant) {
+  const Vec3f shift = place - complex_.offset(q, p);
+  const auto join = [&](Quadric& from, float from_error, Quadric& to, float& error) {
+    error = std::max(0.f, error + to.at(shift) + from_error + from.at(place) + wedge_constant);
+    to.move(shift);
+    from.move(place);
+    to.add(from, {});
+  };
+  join(complex_.vertices[q].quadric, complex_.states[q].error, complex_.vertices[p].quadric,
+       complex_.states[p].error);
+  if (!attribute_quadrics_.empty())
+    join(attribute_quadrics_[q], attribute_errors_[q], attribute_quadrics_[p],
+         attribute_errors_[p]);
+}
+
+void EdgeSimplifier::note_collapse(Index q, Index p, std::size_t first_move) {
+  const float weight = complex_.vertices[p].quadric.weight;
+  const float mean = weight > 0 ? std::sqrt(complex_.states[p].error / weight) : 0;
+  const double error = mean / complex_.scale[0] / complex_.scale[1];
+  last_error_ = std::max(
+      last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
+  out_.collapses.push_back({q, p, last_error_, static_cast<Index>(out_.moves.size() - first_move)});
+  if (!free_) return;
+  const auto place = moved_[p] ? complex_.model_position(p) : input_position(p);
+  out_.placements.insert(out_.placements.end(), place.begin(), place.end());
+}
+
+// After a collapse onto p: what the faces around it and its neighbours are, and what their edges
+// cost now. Those that a neighbour had before are priced again when it comes up.
+void EdgeSimplifier::look_around(Index p, bool has_moved) {
+  if (memoryless_) {
+    const auto changed = has_moved ? complex_.ring(p) : std::span<const Index>(moved_corners_);
+    for (const Index corner : changed) builder_->update(corner / 4);
+  }
+  if (is_large(p)) {
+    for (const StarEdge& edge : star_.edges) {
+      const Index x = edge.vertex;
+      if (x == p || complex_.is_locked(x)) continue;
+      if (memoryless_) survey(x);
+      lower_key(x, complex_.states[x].error +
+                       complex_.vertices[x].quadric.at(complex_.offset(x, p)) +
+                       rounded_down(complex_.states[p].error));
+    }
+    return;
+  }
+  gather(p, kept_star_);
+  if (memoryless_) {
+    survey(p, kept_star_);
+    for (const StarEdge& edge : kept_star_.edges) survey(edge.vertex);
+  }
+  const float least = evaluate(kept_star_);
+  if (least < kInfinity && heap_->contains(p)) {
+    set_key(p, least);
+  } else if (heap_->contains(p)) {
+    heap_->remove(p);
+    complex_.vertices[p].key = kInfinity;
+  }
+  for (const StarEdge& edge : kept_star_.edges) {
+    if (complex_.is_locked(edge.vertex)) continue;
+    float bound = edge.error;
+    if (!free_ && memoryless_ && !is_large(edge.vertex))
+      bound = around_[edge.vertex].planes.at(complex_.offset(edge.vertex, p));
+    lower_key(edge.vertex, bound);
+  }
+}
+
+// A new edge of x costs this, about.
+void EdgeSimplifier::lower_key(Index x, float key) {
+  if (complex_.vertices[x].key == kInfinity) return;  // left the heap
+  key = std::max(key, 0.f);
+  if (key < complex_.vertices[x].key) set_key(x, key);
+}
+
+void EdgeSimplifier::set_key(Index x, float key) {
+  complex_.vertices[x].key = key;
+  heap_->update(x, key);
+}
+
+}  // namespace
+
+CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOptions& options,
+                                const Progress& progress) {
+  return EdgeSimplifier(input, options).run(progress);
+}
+
+}  // namespace pstrip

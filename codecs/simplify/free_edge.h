@@ -1,0 +1,13 @@
+#pragma once
+
+#include "codecs/simplify/simplify.h"
+
+namespace pstrip {
+
+/// simplify() with free placement or the memoryless metric. A vertex stands in the heap once, under
+/// the cost that its cheapest collapse had when it was last looked at; it is looked at again when
+/// it comes up.
+CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOptions& options,
+                                const Progress& progress);
+
+}  // namespace pstrip

@@ -1,0 +1,124 @@
+#include "codecs/simplify/guards.h"
+
+#include <algorithm>
+
+namespace pstrip {
+namespace {
+
+// Faces may turn by 78°.
+constexpr float kLeastCosine = 0.2f;
+// Height over longest side below which a face is a sliver. No more than what degenerates: the long
+// faces that developable parts of CAD models need are much thinner than one would like.
+constexpr float kSliver = 1e-4f;
+
+// A vertex on a border or non-manifold edge may only slide along it, and not where several meet.
+bool breaks_border(const Star& star, const StarEdge& edge) {
+  return star.open_edges > 0 && (edge.triangles == 2 || star.open_edges > 2);
+}
+
+// Whether the face with sides a and b from a corner turns too far, or becomes a sliver that it was
+// not, when that corner moves by `shift`.
+bool face_flips(Vec3f a, Vec3f b, Vec3f shift) {
+  const Vec3f before = cross(a, b), u = a - shift, v = b - shift, after = cross(u, v);
+  const float turn = dot(before, after);
+  const float size_before = dot(before, before), size_after = dot(after, after);
+  if (!(size_before > 0)) return false;  // was no face to begin with
+  // In double precision: fourth powers of lengths squared.
+  if (turn <= 0 ||
+      double{turn} * turn < double{kLeastCosine} * kLeastCosine * size_before * double{size_after})
+    return true;
+  const auto longest = [](Vec3f s, Vec3f t) {
+    const Vec3f w = s - t;
+    return std::max({dot(s, s), dot(t, t), dot(w, w)});
+  };
+  const float length = longest(u, v);
+  if (size_after >= kSliver * kSliver * length * length) return false;
+  const float length_before = longest(a, b);
+  return double{size_after} * length_before * length_before < double{size_before} * length * length;
+}
+
+}  // namespace
+
+Guard Guards::check(const Star& star, const StarEdge& edge) {
+  if (breaks_border(star, edge)) return Guard::border;
+  if (breaks_link(star, edge.vertex)) return Guard::link;
+  return flips(star, edge.vertex, complex_.offset(star.vertex, edge.vertex)) ? Guard::flip
+                                                                             : Guard::none;
+}
+
+Guard Guards::check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f kept_shift) {
+  if (breaks_border(star, edge)) return Guard::border;
+  if (breaks_link(star, edge.vertex)) return Guard::link;
+  return flips(star, edge.vertex, shift) || flips_kept(star.vertex, edge.vertex, kept_shift)
+             ? Guard::flip
+             : Guard::none;
+}
+
+// Link condition: what p and q both neighbour is on a triangle with both, and no two faces become
+// one. Not told apart in time counts as broken.
+bool Guards::breaks_link(const Star& star, Index p) {
+  std::vector<Index>& marks = complex_.marks;
+  const Index near = complex_.new_epoch(2), apex = near + 1;
+  const bool large = complex_.vertices[p].ring_size > kLargeRing;
+  if (!large)
+    for (const Index corner : complex_.ring(p)) {
+      marks[complex_.corner_vertex[Complex::next(corner)]] = near;
+      marks[complex_.corner_vertex[Complex::previous(corner)]] = near;
+    }
+  for (const Spoke& spoke : star.spokes) {
+    if (spoke.next == p) marks[spoke.previous] = apex;
+    if (spoke.previous == p) marks[spoke.next] = apex;
+  }
+  for (const Spoke& spoke : star.spokes) {
+    if (spoke.next == p || spoke.previous == p) continue;
+    int apexes = 0;
+    for (const Index x : {spoke.next, spoke.previous}) {
+      if (marks[x] == apex)
+        ++apexes;
+      else if (large ? has_neighbour(x, p) : marks[x] == near)
+        return true;
+    }
+    if (apexes == 2 && has_triangle(p, spoke.next, spoke.previous)) return true;
+  }
+  return false;
+}
+
+bool Guards::has_neighbour(Index vertex, Index other) {
+  if (complex_.vertices[vertex].ring_size > 4 * kLargeRing) return true;
+  return std::ranges::any_of(complex_.ring(vertex), [&](Index corner) {
+    return complex_.corner_vertex[Complex::next(corner)] == other ||
+           complex_.corner_vertex[Complex::previous(corner)] == other;
+  });
+}
+
+bool Guards::has_triangle(Index a, Index b, Index c) {
+  const auto size = [&](Index v) { return complex_.vertices[v].ring_size; };
+  if (size(b) < size(a)) std::swap(a, b);
+  if (size(c) < size(a)) std::swap(a, c);
+  if (size(a) > 4 * kLargeRing) return true;
+  return std::ranges::any_of(complex_.ring(a), [&](Index corner) {
+    const Index x = complex_.corner_vertex[Complex::next(corner)];
+    const Index y = complex_.corner_vertex[Complex::previous(corner)];
+    return (x == b && y == c) || (x == c && y == b);
+  });
+}
+
+bool Guards::flips(const Star& star, Index p, Vec3f shift) const {
+  return std::ranges::any_of(star.spokes, [&](const Spoke& spoke) {
+    return spoke.next != p && spoke.previous != p &&
+           face_flips(complex_.offset(star.vertex, spoke.next),
+                      complex_.offset(star.vertex, spoke.previous), shift);
+  });
+}
+
+bool Guards::flips_kept(Index q, Index p, Vec3f shift) {
+  if (shift.x == 0 && shift.y == 0 && shift.z == 0) return false;
+  return std::ranges::any_of(complex_.ring(p), [&](Index corner) {
+    const Index next = complex_.corner_vertex[Complex::next(corner)];
+    const Index previous = complex_.corner_vertex[Complex::previous(corner)];
+    return next != q && previous != q &&
+           face_flips(complex_.offset(p, next), complex_.offset(p, previous), shift);
+  });
+}
+
+}  // namespace pstrip

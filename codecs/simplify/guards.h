@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "codecs/simplify/complex.h"
+#include "codecs/simplify/simplify.h"
+
+namespace pstrip {
+
+/// Rings larger than this are not looked through for each of their neighbours' collapses, so that
+/// one vertex with a great many neighbours costs no more than they do.
+constexpr Index kLargeRing = 64;
+
+/// Asks whether collapses keep the shape and the topology of a complex.
+class Guards {
+ public:
+  /// `complex` must outlive it.
+  explicit Guards(Complex& complex) : complex_(complex) {}
+
+  /// For the collapse of the star's vertex onto the other end of `edge`, which stays where it is.
+  /// Cost O(both rings) until a ring is large.
+  Guard check(const Star& star, const StarEdge& edge);
+  /// The same when both ends move, by `shift` and `kept_shift`.
+  Guard check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f kept_shift);
+
+ private:
+  bool breaks_link(const Star& star, Index p);
+  bool has_neighbour(Index vertex, Index other);
+  bool has_triangle(Index a, Index b, Index c);
+  bool flips(const Star& star, Index p, Vec3f shift) const;
+  bool flips_kept(Index q, Index p, Vec3f shift);
+
+  Complex& complex_;
+};
+
+/// Adds one to the count of `guard`, if there is one.
+inline void count(GuardCounts& counts, Guard guard) {
+  if (guard == Guard::border) ++counts.border;
+  if (guard == Guard::link) ++counts.link;
+  if (guard == Guard::flip) ++counts.flip;
+}
+
+}  // namespace pstrip

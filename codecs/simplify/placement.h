@@ -1,0 +1,24 @@
+#pragma once
+
+#include "codecs/simplify/quadric.h"
+
+namespace pstrip {
+
+/// A plane area·x = constant, or none: where a vertex may stand so that the volume under the faces
+/// around it stays what it is. [Lindstrom98 §3.1]
+struct Volume {
+  Vec3f area;
+  float constant = 0;
+};
+
+/// Where the vertex that an edge shrinks to costs least, on the plane of `volume` if there is one.
+///
+/// quadric  of both ends, relative to the first
+/// offset   of the second end from the first
+/// returns  an offset from the first; near the middle of the edge where the quadric does not care,
+///          one of the ends or the middle where the best place is far off
+/// source   [Garland97 §4; Lindstrom98 §3]. Differs: what is missing to a definite place is not a
+///          separate problem of triangle shape, a weak pull to the middle decides it.
+Vec3f best_place(const Quadric& quadric, const Volume& volume, Vec3f offset);
+
+}  // namespace pstrip
