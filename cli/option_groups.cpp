@@ -76,7 +76,7 @@ void StripOptionsGroup::add_to(CLI::App& app) {
       ->group(kGroup);
   app.add_option("--strip-price", price,
                  "Indices that a strip counts for; higher gives fewer strips")
-      ->check(CLI::Range(0u, 1000u))
+      ->check(CLI::Range(0u, kMostStripPrice))
       ->capture_default_str()
       ->group(kGroup);
   app.add_option("--strip-weight", weight, "What multi-path-weighted prefers")

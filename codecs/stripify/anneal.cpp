@@ -26,7 +26,7 @@ class Annealer {
       : paths_(paths),
         random_(options.seed),
         stop_(options.stop),
-        strip_price_(static_cast<int>(std::min(options.strip_price, 1000u))),
+        strip_price_(static_cast<int>(std::min(options.strip_price, kMostStripPrice))),
         budget_(std::uint64_t{options.effort} * paths.triangle_count()),
         walk_moves_(options.effort < kLongRun ? 4 : 8),
         first_step_(options.effort < kShortRun ? 12 : 0),

@@ -5,8 +5,8 @@
 namespace pstrip {
 
 /// Our own. For few indices: straight strips, or SGI's when there is time, then anneal(). For few
-/// strips: a quarter of that at a high price a strip, then join_strips(). The figures are printed
-/// by tests/bench/stripify_bench.
+/// strips, and for a high price a strip: a quarter of that, then join_strips(). When there is
+/// little time for few strips it begins with multi_path_links(). tests/bench says what it reaches.
 Strips best_strips(const StripInput& input, const StripOptions& options);
 
 }  // namespace pstrip

@@ -157,6 +157,21 @@ TEST(Best, MakesFewerStripsForAHigherPrice) {
   EXPECT_LT(strips(10), strips(3));
 }
 
+// Between the goals: a price buys strips for indices.
+TEST(Best, PaysNoMoreThanThePriceForAStrip) {
+  const StripMesh mesh = moth_eaten();
+  const auto stats = [&](StripGoal goal, std::uint32_t price) {
+    const StripOptions options{.goal = goal, .effort = 100, .strip_price = price};
+    return strip_stats(find_stripifier("best")->run(mesh.input(), options));
+  };
+  const StripStats cheap = stats(StripGoal::indices, 3), between = stats(StripGoal::indices, 30),
+                   few = stats(StripGoal::strips, 3);
+  EXPECT_LT(between.strips, cheap.strips);
+  EXPECT_LE(few.strips, between.strips);
+  EXPECT_LT(cheap.indices_sent, between.indices_sent);
+  EXPECT_LE(between.swaps, cheap.swaps + 30 * (cheap.strips - between.strips));
+}
+
 std::uint64_t fewest_strips(const StripMesh& mesh) {
   const StripOptions options{.goal = StripGoal::strips, .effort = 200};
   const Strips strips = find_stripifier("best")->run(mesh.input(), options);
