@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -37,22 +38,57 @@ double load(ComponentType type, const std::byte* at) {
   return 0;
 }
 
-double normalized(ComponentType type, double value) {
+template <class T>
+void store(std::byte* at, double value) {
+  if constexpr (std::is_integral_v<T>) {
+    constexpr double kLeast = std::numeric_limits<T>::min(), kMost = std::numeric_limits<T>::max();
+    value = std::isnan(value) ? 0 : std::clamp(std::nearbyint(value), kLeast, kMost);
+  } else if constexpr (std::is_same_v<T, float>) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    if (std::isfinite(value)) value = std::clamp(value, -kMost, kMost);
+  }
+  const T stored = static_cast<T>(value);
+  std::memcpy(at, &stored, sizeof stored);
+}
+
+void store(ComponentType type, std::byte* at, double value) {
   switch (type) {
     case ComponentType::i8:
-      return std::max(value / 127, -1.0);
+      return store<std::int8_t>(at, value);
     case ComponentType::u8:
-      return value / 255;
+      return store<std::uint8_t>(at, value);
     case ComponentType::i16:
-      return std::max(value / 32767, -1.0);
+      return store<std::int16_t>(at, value);
     case ComponentType::u16:
-      return value / 65535;
+      return store<std::uint16_t>(at, value);
     case ComponentType::i32:
-      return std::max(value / 2147483647, -1.0);
+      return store<std::int32_t>(at, value);
     case ComponentType::u32:
-      return value / 4294967295.0;
+      return store<std::uint32_t>(at, value);
+    case ComponentType::f32:
+      return store<float>(at, value);
+    case ComponentType::f64:
+      return store<double>(at, value);
+  }
+}
+
+// The integer that stands for 1.
+double normalized_unit(ComponentType type) {
+  switch (type) {
+    case ComponentType::i8:
+      return 127;
+    case ComponentType::u8:
+      return 255;
+    case ComponentType::i16:
+      return 32767;
+    case ComponentType::u16:
+      return 65535;
+    case ComponentType::i32:
+      return 2147483647;
+    case ComponentType::u32:
+      return 4294967295.0;
     default:
-      return value;
+      return 1;
   }
 }
 
@@ -84,7 +120,15 @@ double component(const Attribute& attribute, std::size_t i, std::size_t c) {
   const std::byte* at =
       attribute.data.data() + i * attribute.element_bytes() + c * size_of(attribute.type);
   const double value = load(attribute.type, at);
-  return attribute.normalized ? normalized(attribute.type, value) : value;
+  if (!attribute.normalized || attribute.type >= ComponentType::f32) return value;
+  return std::max(value / normalized_unit(attribute.type), -1.0);
+}
+
+void set_component(Attribute& attribute, std::size_t i, std::size_t c, double value) {
+  std::byte* at =
+      attribute.data.data() + i * attribute.element_bytes() + c * size_of(attribute.type);
+  const bool scaled = attribute.normalized && attribute.type < ComponentType::f32;
+  store(attribute.type, at, scaled ? value * normalized_unit(attribute.type) : value);
 }
 
 void canonicalize(Mesh& mesh) {

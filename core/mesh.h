@@ -52,6 +52,10 @@ struct Attribute {
 /// Component c of element i as a number; normalized integers are scaled as in glTF 2.0 §3.6.2.2.
 double component(const Attribute& attribute, std::size_t i, std::size_t c);
 
+/// Makes a number component c of element i: the nearest that the type has, ties to even, NaN as 0
+/// for integers. Stores what component() gave as it was, but for the normalized integers below -1.
+void set_component(Attribute& attribute, std::size_t i, std::size_t c, double value);
+
 enum class FaceKind : std::uint8_t {
   polygons,  ///< closed loops; three corners are a triangle
   lines,     ///< open polylines
