@@ -13,6 +13,7 @@ namespace {
 struct Options {
   std::string input, output;
   std::string attributes;
+  bool verbose = false;
   bool ascii = false, gltf_strips = false, prefix = false;
   TargetOption target;
   EncodeOptionsGroup encode;
@@ -26,6 +27,35 @@ void report(const Streams& io, const Options& options, const LoadedFile& input,
   if (io.quiet || options.output == "-") return;
   io.err << fmt::format("{} ({}) -> {} ({})\n", escaped(options.input), byte_size(input.bytes),
                         escaped(options.output), byte_size(saved.bytes));
+}
+
+std::string guards_of(const GuardCounts& counts) {
+  return fmt::format("{} by border, {} by topology, {} by flipped faces", grouped(counts.border),
+                     grouped(counts.link), grouped(counts.flip));
+}
+
+std::string_view reason_of(SimplifyStop stop) {
+  switch (stop) {
+    case SimplifyStop::target:
+      return "as asked";
+    case SimplifyStop::max_error:
+      return "the rest is above the error limit";
+    case SimplifyStop::exhausted:
+      return "no edge is left that may be collapsed";
+    case SimplifyStop::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+void report_simplification(const Streams& io, const std::vector<SimplifyReport>& meshes) {
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const SimplifyReport& r = meshes[m];
+    io.err << fmt::format("mesh {} \"{}\": {} -> {} triangles, {}\n", m, escaped(r.mesh),
+                          grouped(r.triangles), grouped(r.base_triangles), reason_of(r.stop));
+    io.err << fmt::format("  collapses put off: {}\n", guards_of(r.refused));
+    io.err << fmt::format("  taken nevertheless: {}\n", guards_of(r.forced));
+  }
 }
 
 // Strips to strips keeps the records; anything else goes through the mesh.
@@ -51,6 +81,7 @@ ExitCode run(const Options& options, const Streams& io) {
   note(io, options.input, file->notes);
 
   Result<SavedFiles> saved;
+  std::vector<SimplifyReport> simplified;
   if (keeps_records(options, *file, *target)) {
     auto& strips = std::get<ProgressiveStrips>(file->content);
     if (!strips.complete) strips = cut(strips, strips.packets.size());
@@ -63,7 +94,7 @@ ExitCode run(const Options& options, const Streams& io) {
       keep_attributes(model, options.attributes == "none" ? std::vector<std::string>()
                                                           : split_list(options.attributes));
     if (is_progressive(*target)) {
-      auto strips = encode(model, *encode_options, bar.callback());
+      auto strips = encode(model, *encode_options, bar.callback(), &simplified);
       if (!strips) return complain(io, strips.error(), options.input);
       options.encode.stripping.note_time_limit(io);
       saved = save(*strips, options.output, *target);
@@ -74,6 +105,7 @@ ExitCode run(const Options& options, const Streams& io) {
   }
   if (!saved) return complain(io, saved.error(), options.output);
   report(io, options, *file, *saved);
+  if (options.verbose) report_simplification(io, simplified);
   return kOk;
 }
 
@@ -88,6 +120,7 @@ Command add_convert(CLI::App& root) {
   options->target.add_to(*app);
   app->add_option("--attributes", options->attributes,
                   "Attributes to keep: all, none, or a list such as NORMAL,TEXCOORD_0");
+  app->add_flag("-v,--verbose", options->verbose, "Say how each mesh was simplified");
   app->add_flag("--ascii", options->ascii, "PLY output as text");
   app->add_flag("--gltf-strips", options->gltf_strips, "glTF output as strips, one primitive each");
   app->add_flag("--allow-prefix", options->prefix,

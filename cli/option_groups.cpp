@@ -146,9 +146,40 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
       ->check(CLI::NonNegativeNumber)
       ->excludes(share)
       ->group(kGroup);
+  app.add_option("--placement", placement,
+                 "Vertices of the levels: a subset of the model's, or moved where they fit best")
+      ->check(CLI::IsMember({"subset", "optimal"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--metric", metric, "What levels are nearest by: qem is quick, memoryless nearer")
+      ->check(CLI::IsMember({"qem", "memoryless"}))
+      ->capture_default_str()
+      ->group(kGroup);
+  app.add_option("--attribute-weight", attribute_weights,
+                 "NAME=WEIGHT, such as TEXCOORD_0=0.3: share of the model's diagonal that a full "
+                 "swing of an attribute counts for; may be repeated")
+      ->allow_extra_args(false)
+      ->group(kGroup);
   app.add_flag("--keep-order", options.keep_order, "Keep the order of vertices, wedges and faces")
       ->group(kGroup);
 }
+
+namespace {
+
+Result<AttributeWeight> parse_weight(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  AttributeWeight out{text.substr(0, equals), 0};
+  const char* end = text.data() + text.size();
+  const char* number = equals == text.npos ? end : text.data() + equals + 1;
+  const auto [rest, code] = std::from_chars(number, end, out.weight);
+  if (code != std::errc{} || rest != end || out.semantic.empty() || !(out.weight >= 0) ||
+      out.weight > 1e6)
+    return fail(ErrorCode::bad_argument,
+                "--attribute-weight takes NAME=WEIGHT with a weight from 0 to 1e6: " + text);
+  return out;
+}
+
+}  // namespace
 
 Result<EncodeOptions> EncodeOptionsGroup::get() const {
   EncodeOptions out = options;
@@ -156,6 +187,13 @@ Result<EncodeOptions> EncodeOptionsGroup::get() const {
   const auto strip_options = stripping.get();
   if (!strip_options) return tl::unexpected(strip_options.error());
   out.strip_options = *strip_options;
+  out.placement = placement == "optimal" ? Placement::free : Placement::subset;
+  out.metric = metric == "memoryless" ? Metric::memoryless : Metric::qem;
+  for (const std::string& text : attribute_weights) {
+    auto weight = parse_weight(text);
+    if (!weight) return tl::unexpected(weight.error());
+    out.attribute_weights.push_back(std::move(weight).value());
+  }
   if (base_error >= 0) {
     out.base_error = base_error;
     return out;

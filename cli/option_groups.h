@@ -66,9 +66,13 @@ struct StripOptionsGroup {
   void note_time_limit(const Streams& io) const;
 };
 
-/// The options above and --strips, --stripifier, --base, --base-error, --keep-order, --profile
+/// The options above and --strips, --stripifier, --base, --base-error, --placement, --metric,
+/// --attribute-weight, --keep-order, --profile
 struct EncodeOptionsGroup {
   EncodeOptions options;
+  std::string placement = "subset";
+  std::string metric = "qem";
+  std::vector<std::string> attribute_weights;  ///< NAME=WEIGHT
   std::string strips = "offset";
   std::string base = "5%";
   double base_error = -1;

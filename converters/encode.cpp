@@ -20,7 +20,11 @@ namespace {
 // How much a difference of an attribute counts against a displacement, as a share of the
 // bounding-box diagonal a full swing of it costs. By eye on textured models; a swing is the range
 // of UVs and colours and the unit length of normals.
-double attribute_weight(std::string_view semantic) {
+double attribute_weight(std::string_view semantic, const EncodeOptions& options) {
+  const std::string_view unnumbered = semantic.substr(0, semantic.find_last_of('_'));
+  for (const std::string_view name : {semantic, unnumbered})
+    for (const AttributeWeight& w : options.attribute_weights)
+      if (w.semantic == name) return w.weight;
   if (semantic == "NORMAL") return 0.02;
   if (semantic.starts_with("TEXCOORD_")) return 0.3;
   if (semantic.starts_with("COLOR_")) return 0.1;
@@ -32,7 +36,7 @@ struct AttributeTable {
   std::uint32_t count = 0;
 };
 
-AttributeTable attributes_for_simplify(const Mesh& mesh) {
+AttributeTable attributes_for_simplify(const Mesh& mesh, const EncodeOptions& options) {
   struct Column {
     const Attribute* attribute;
     std::size_t component;
@@ -40,7 +44,7 @@ AttributeTable attributes_for_simplify(const Mesh& mesh) {
   };
   std::vector<Column> columns;
   for (const Attribute& a : mesh.wedge_attributes) {
-    const double weight = attribute_weight(a.semantic);
+    const double weight = attribute_weight(a.semantic, options);
     if (weight == 0) continue;
     double low = 0, high = 0;  // over all components, so that UVs are not stretched
     for (std::size_t w = 0; w < a.elements(); ++w)
@@ -66,20 +70,20 @@ AttributeTable attributes_for_simplify(const Mesh& mesh) {
 }
 
 CollapseSequence choose_collapses(const Mesh& mesh, const Triangulation& triangles,
-                                  std::uint64_t target_triangles, double max_error,
+                                  const EncodeOptions& options, SimplifyOptions simplify_options,
                                   const Progress& progress) {
   const std::vector<double> positions = positions_as_double(mesh);
   std::vector<Index> group;
   if (!mesh.face_group.empty())
     for (const Index f : triangles.face) group.push_back(mesh.group_of(f));
-  const AttributeTable attributes = attributes_for_simplify(mesh);
+  const AttributeTable attributes = attributes_for_simplify(mesh, options);
   return simplify({.positions = positions,
                    .wedge_vertex = mesh.wedge_vertex,
                    .triangles = triangles.corners,
                    .group = group,
                    .attributes = attributes.values,
                    .attribute_count = attributes.count},
-                  {.target_triangles = target_triangles, .max_error = max_error}, progress);
+                  simplify_options, progress);
 }
 
 struct Encoded {
@@ -114,8 +118,9 @@ void pack(const Recording& recording, Index mesh, const EncodeOptions& options, 
 
 class Encoder {
  public:
-  Encoder(const Model& model, const EncodeOptions& options, const Progress& progress)
-      : model_(model), options_(options), progress_(progress) {}
+  Encoder(const Model& model, const EncodeOptions& options, const Progress& progress,
+          std::vector<SimplifyReport>* reports = nullptr)
+      : model_(model), options_(options), progress_(progress), reports_(reports) {}
 
   Result<ProgressiveStrips> run(const std::vector<CollapseSequence>* given) {
     stripifier_ = find_stripifier(options_.stripifier);
@@ -165,11 +170,21 @@ class Encoder {
       const bool by_error = options_.base_error.has_value();
       const double target = share_ * static_cast<double>(triangles.face.size());
       chosen = choose_collapses(
-          mesh, triangles, by_error ? 0 : static_cast<std::uint64_t>(target),
-          by_error ? *options_.base_error : -1,
+          mesh, triangles, options_,
+          {.target_triangles = by_error ? 0 : static_cast<std::uint64_t>(target),
+           .max_error = by_error ? *options_.base_error : -1,
+           .placement = options_.placement,
+           .metric = options_.metric},
           [&](std::string_view stage, double done) { return go_on(stage, m, 0.25 + 0.5 * done); });
       if (chosen.stop == SimplifyStop::interrupted) return interrupted();
       given = &chosen;
+      if (reports_)
+        reports_->push_back({.mesh = mesh.name,
+                             .triangles = triangles.face.size(),
+                             .base_triangles = chosen.triangles_left,
+                             .stop = chosen.stop,
+                             .refused = chosen.refused,
+                             .forced = chosen.forced});
     }
     if (!go_on("record", m, 0.75)) return interrupted();
     Recording recording = record(mesh, strips, *given, options_.encoding);
@@ -222,6 +237,7 @@ class Encoder {
   const Model& model_;
   const EncodeOptions& options_;
   const Progress& progress_;
+  std::vector<SimplifyReport>* reports_;
   const NamedStripifier* stripifier_ = nullptr;
   double share_ = 0;
 };
@@ -264,8 +280,8 @@ JoinedWedges join_equal_wedges(const Mesh& mesh) {
 }  // namespace
 
 Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
-                                 const Progress& progress) {
-  return Encoder(model, options, progress).run(nullptr);
+                                 const Progress& progress, std::vector<SimplifyReport>* reports) {
+  return Encoder(model, options, progress, reports).run(nullptr);
 }
 
 Result<ProgressiveStrips> encode_with(const Model& model,

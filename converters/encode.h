@@ -14,6 +14,14 @@
 
 namespace pstrip {
 
+/// What a full swing of an attribute costs, as a share of the bounding-box diagonal by which a
+/// surface would have to be off: of UVs and colours their range, of normals the unit length. 0: it
+/// does not count.
+struct AttributeWeight {
+  std::string semantic;  ///< as in the mesh; without its number it is meant for all numbers
+  double weight = 0;     ///< from 0 to 1e6
+};
+
 struct EncodeOptions {
   MapEncoding encoding = MapEncoding::offset_difference;
   std::string stripifier = "best";  ///< a name of stripifiers()
@@ -21,9 +29,21 @@ struct EncodeOptions {
   double base_share = 0.05;                       ///< of each mesh's triangles that the base keeps
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
   std::optional<double> base_error{};  ///< instead: largest distance estimate, model units
-  bool keep_order = false;             ///< vertex, wedge and face order of the source
-  double packet_growth = 1.0 / 16;     ///< vertices a packet adds, as a share of those before it
-  Index packet_min = 256;              ///< and at least so many
+  Placement placement = Placement::subset;
+  Metric metric = Metric::qem;
+  /// How much attributes count when collapses are chosen, see AttributeWeight; the others as usual.
+  std::vector<AttributeWeight> attribute_weights{};
+  bool keep_order = false;          ///< vertex, wedge and face order of the source
+  double packet_growth = 1.0 / 16;  ///< vertices a packet adds, as a share of those before it
+  Index packet_min = 256;           ///< and at least so many
+};
+
+/// How the collapses of one mesh were chosen.
+struct SimplifyReport {
+  std::string mesh;  ///< its name
+  std::uint64_t triangles = 0, base_triangles = 0;
+  SimplifyStop stop = SimplifyStop::target;
+  GuardCounts refused, forced;
 };
 
 /// Turns a model into progressive strips: triangulate, stripify, simplify, record, pack.
@@ -31,10 +51,13 @@ struct EncodeOptions {
 /// Takes any mesh that find_inconsistency() accepts. Packets of several meshes are interleaved by
 /// error, largest first. Same model and options, same result.
 ///
-/// errors  bad_argument for an unknown stripifier or an inconsistent mesh, over_limit for more than
-///         kMaxCount map entries, interrupted
+/// reports  one a mesh is added, unless null
+/// errors   bad_argument for an unknown stripifier or an inconsistent mesh, over_limit for more
+/// than
+///          kMaxCount map entries, interrupted
 Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
-                                 const Progress& progress = {});
+                                 const Progress& progress = {},
+                                 std::vector<SimplifyReport>* reports = nullptr);
 
 /// The same with the collapses given instead of chosen: one sequence a mesh, for progressive
 /// meshes that come from elsewhere.

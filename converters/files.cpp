@@ -40,13 +40,10 @@ Result<LoadedFile> loaded(FileFormat format, Result<T> content) {
 Result<LoadedFile> load_text(ByteView bytes, const LoadOptions& options) {
   auto text = read_text(bytes, options.limits);
   if (!text) return tl::unexpected(text.error());
-  const bool moves_parents = !text->kept_position.empty();
   std::vector<CollapseSequence> collapses{collapses_of(*text)};
   Model model;
   model.meshes.push_back(std::move(text->mesh));
-  auto file = loaded(FileFormat::pm, encode_with(model, collapses, options.text_options));
-  if (file && moves_parents) file->notes.push_back("where parents stand at coarse levels");
-  return file;
+  return loaded(FileFormat::pm, encode_with(model, collapses, options.text_options));
 }
 
 // Piece by piece, so that the file and what is made of it are not in memory together.

@@ -19,10 +19,17 @@ struct Removal {
   Index wedges, carried, places;
 };
 
+void append_element(const Attribute& from, Index i, Bytes& to) {
+  const ByteView element = from.element(i);
+  to.insert(to.end(), element.begin(), element.end());
+}
+
 class Recorder {
  public:
-  Recorder(const Mesh& mesh, const StripMap& strips, MapEncoding encoding)
+  Recorder(const Mesh& mesh, const StripMap& strips, MapEncoding encoding, Placement placement)
       : mesh_(mesh),
+        position_(mesh.position),
+        placement_(placement),
         resolved_(strips.entries),
         map_(strips.entries),
         symbols_(encoding == MapEncoding::offset_difference) {
@@ -37,6 +44,8 @@ class Recorder {
 
   void remove_lone_vertices();
   void collapse(const Collapse& collapse, std::span<const WedgeMove> moves);
+  /// The kept vertex of the last collapse goes there.
+  void place(Index vertex, std::span<const double> position);
   Recording finish(const StripMap& strips, MapEncoding encoding) &&;
 
  private:
@@ -53,6 +62,8 @@ class Recorder {
   void note_removed_wedge(Index wedge, std::vector<Index>& places);
 
   const Mesh& mesh_;
+  Attribute position_;  // where vertices stand, or stood when they were removed
+  Placement placement_;
   std::vector<Index> resolved_;  // wedge at every entry
   std::vector<Index> map_;       // the same with symbols
   bool symbols_;
@@ -70,6 +81,7 @@ class Recorder {
   std::vector<LevelCounts> counts_;                      // before each removal, fine to coarse
   std::vector<Index> removed_wedges_, removed_carried_;  // per removal, in record order
   std::vector<Index> wedge_places_, places_;             // per removed wedge
+  Bytes parent_positions_;  // before each removal, fine to coarse; with free placement
   float error_ = 0;
 };
 
@@ -185,6 +197,8 @@ void Recorder::note_removed_wedge(Index wedge, std::vector<Index>& places) {
 
 void Recorder::push(Index vertex, Index parent, Index wedges, Index carried, Index places,
                     float error) {
+  if (placement_ == Placement::free)
+    append_element(position_, parent == kNone ? vertex : parent, parent_positions_);
   removals_.push_back({vertex, parent, wedges, carried, places});
   counts_.push_back({triangles_, strips_, error_});
   error_ = std::max(error_, error);
@@ -234,10 +248,9 @@ void Recorder::collapse(const Collapse& collapse, std::span<const WedgeMove> mov
   }
 }
 
-template <class T>
-void append_element(const Attribute& from, Index i, T& to) {
-  const ByteView element = from.element(i);
-  to.insert(to.end(), element.begin(), element.end());
+void Recorder::place(Index vertex, std::span<const double> position) {
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, position_.count); ++c)
+    set_component(position_, vertex, c, position[c]);
 }
 
 Attribute in_order(const Attribute& from, std::span<const Index> order) {
@@ -252,6 +265,7 @@ Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
   ProgressiveMesh& mesh = out.mesh;
   mesh.name = mesh_.name;
   mesh.encoding = encoding;
+  mesh.placement = placement_;
   mesh.groups = mesh_.groups;
   mesh.group_entries = strips.group_entries;
   for (const Attribute& a : mesh_.face_attributes)
@@ -285,7 +299,9 @@ Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
   // The records, coarse to fine. Their lists were pushed fine to coarse, a removal's in order.
   std::size_t wedge = removed_wedges_.size(), carried = removed_carried_.size(),
               place = places_.size();
+  const std::size_t position_bytes = position_.element_bytes();
   mesh.vsplits.reserve(removals_.size());
+  mesh.parent_position.reserve(parent_positions_.size());
   mesh.places.reserve(places_.size());
   out.levels.push_back({triangles_, strips_, error_});
   for (std::size_t k = removals_.size(); k-- > 0;) {
@@ -295,6 +311,12 @@ Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
     wedge -= r.wedges, carried -= r.carried, place -= r.places;
     for (std::size_t i = wedge; i < wedge + r.wedges; ++i) number_wedge(removed_wedges_[i]);
     mesh.vsplits.push_back({parent, r.wedges, r.carried, r.places});
+    if (placement_ == Placement::free) {
+      const auto stood =
+          parent_positions_.begin() + static_cast<std::ptrdiff_t>(k * position_bytes);
+      mesh.parent_position.insert(mesh.parent_position.end(), stood,
+                                  stood + static_cast<std::ptrdiff_t>(position_bytes));
+    }
     mesh.places.insert(mesh.places.end(), places_.begin() + static_cast<std::ptrdiff_t>(place),
                        places_.begin() + static_cast<std::ptrdiff_t>(place + r.places));
     mesh.wedge_places.insert(mesh.wedge_places.end(),
@@ -314,7 +336,7 @@ Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
     for (Index w = 0; w < mesh.base_wedges; ++w)
       mesh.base_wedge_vertex[w] = vertex_to[wedge_vertex_[out.wedge_from[w]]];
   }
-  mesh.position = in_order(mesh_.position, out.vertex_from);
+  mesh.position = in_order(position_, out.vertex_from);
   for (const Attribute& a : mesh_.wedge_attributes)
     mesh.wedge_attributes.push_back(in_order(a, out.wedge_from));
   return out;
@@ -324,12 +346,17 @@ Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
 
 Recording record(const Mesh& mesh, const StripMap& strips, const CollapseSequence& sequence,
                  MapEncoding encoding) {
-  Recorder recorder(mesh, strips, encoding);
+  assert(sequence.placements.empty() ||
+         sequence.placements.size() == 3 * sequence.collapses.size());
+  const bool moves_kept = !sequence.placements.empty();
+  Recorder recorder(mesh, strips, encoding, moves_kept ? Placement::free : Placement::subset);
   recorder.remove_lone_vertices();
   std::size_t move = 0;
-  for (const Collapse& collapse : sequence.collapses) {
+  for (std::size_t i = 0; i < sequence.collapses.size(); ++i) {
+    const Collapse& collapse = sequence.collapses[i];
     recorder.collapse(collapse, std::span(sequence.moves).subspan(move, collapse.moves));
     move += collapse.moves;
+    if (moves_kept) recorder.place(collapse.kept, std::span(sequence.placements).subspan(3 * i, 3));
   }
   return std::move(recorder).finish(strips, encoding);
 }

@@ -35,6 +35,9 @@ struct StripMap {
 /// Vertices that stand in no strip come last, as vsplits without a parent. A wedge that the
 /// sequence carries but no strip holds appears with its vertex instead.
 ///
+/// With free placement (the sequence has placements) each record says where its parent stood before
+/// the collapse, in the format of the mesh's positions, to which placements are rounded.
+///
 /// sequence  as simplify() makes it: each removed vertex once, with every wedge that stands at it
 /// cost      O(map + rewritten entries); deterministic
 /// source    [Kim04 §3.2 strip-edge collapse, §3.3 symbols, §3.4 exceptions]. Differs: a symbol may

@@ -26,6 +26,9 @@ CASES = [
     *((["convert", "tube.obj", "out.pstrip", "--base", base], 1, "", "--base")
       for base in ("", "%", "-1", "101%", "1.5", "ten", "5%x", "nan", "inf%")),
     (["convert", "tube.obj", "out.pstrip", "--base", "9", "--base-error", "1"], 1, "", "--base"),
+    *((["convert", "tube.obj", "out.pstrip", "--attribute-weight", weight], 1, "",
+       "--attribute-weight") for weight in ("NORMAL", "=1", "A=", "A=x", "A=-1", "A=nan", "A=1e9")),
+    (["convert", "tube.obj", "out.pstrip", "--placement", "free"], 1, "", "--placement"),
     (["convert", "tube.obj", "out.pstrip", "--base-error", "-1"], 1, "", "--base-error"),
     (["convert", "good.pstrip", "out.ply", "--level", "-1"], 1, "", "--level"),
     (["convert", "good.pstrip", "out.ply", "--level", "1", "--triangles", "9"], 1, "", "excludes"),

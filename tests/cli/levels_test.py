@@ -38,6 +38,22 @@ class Levels(ProgramTest):
             first.append(base["triangles"])
         self.assertGreater(first[0], first[1])
 
+    def test_placement_and_metric(self):
+        rms = {}
+        for placement in ("subset", "optimal"):
+            for metric in ("qem", "memoryless"):
+                done = self.run_program("convert", "-v", "grid.obj", "out.pstrip", "--keep-order",
+                                        "--placement", placement, "--metric", metric)
+                self.assertRegex(done.err, r"3,200 -> 1\d\d triangles, as asked")
+                self.assertIn("put off:", done.err)
+                self.assertEqual(self.likeness("grid.obj", "out.pstrip"), "exact")
+                self.run_program("validate", "-q", "out.pstrip")
+                self.run_program("extract", "-q", "out.pstrip", "base.ply", "--level", "0")
+                report = self.report("compare", "grid.obj", "base.ply", code=7)
+                rms[placement, metric] = report["rms"]
+        self.assertLess(rms["optimal", "qem"], rms["subset", "qem"])
+        self.assertLess(rms["optimal", "memoryless"], rms["optimal", "qem"])
+
     def test_level(self):
         for command in ("extract", "convert"):
             for option in ("--level", "--packet"):

@@ -6,10 +6,15 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "codecs/stripify/stripify.h"
 #include "converters/decode.h"
+#include "converters/text_collapses.h"
 #include "formats/pstrip/check.h"
 #include "formats/pstrip/digest.h"
+#include "formats/pstrip/text.h"
 #include "tests/support/meshes.h"
 
 namespace pstrip {
@@ -43,6 +48,145 @@ RC_GTEST_PROP(Encode, AnySoupComesBackExactlyInBothEncodings, ()) {
     RC_ASSERT(check(*strips).has_value());
     RC_ASSERT(decode(*strips)->meshes == model.meshes);
   }
+}
+
+// Every way to choose collapses.
+std::vector<EncodeOptions> manners() {
+  std::vector<EncodeOptions> out;
+  for (const Placement placement : {Placement::subset, Placement::free})
+    for (const Metric metric : {Metric::qem, Metric::memoryless}) {
+      out.emplace_back();
+      out.back().placement = placement;
+      out.back().metric = metric;
+      out.back().keep_order = true;
+      out.back().packet_min = 5;
+    }
+  return out;
+}
+
+RC_GTEST_PROP(Encode, AnySoupComesBackExactlyWhereverVerticesAreMoved, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const auto vertices = *rc::gen::inRange<Index>(0, 60);
+  const auto faces = *rc::gen::inRange<Index>(0, 120);
+  const Model model = model_of({test::random_soup(seed, vertices, faces)});
+  for (EncodeOptions options : manners()) {
+    options.base_share = 0;
+    const auto strips = encode(model, options);
+    RC_ASSERT(strips);
+    RC_ASSERT(check(*strips).has_value());
+    RC_ASSERT(decode(*strips)->meshes == model.meshes);
+  }
+}
+
+// A mesh whose positions have another type, scaled to fill it.
+Mesh with_positions(const Mesh& mesh, ComponentType type, std::uint8_t count, bool normalized) {
+  Mesh out = mesh;
+  out.position = {"POSITION", type, count, normalized, {}};
+  out.position.data.resize(out.position.element_bytes() * mesh.vertex_count());
+  const double scale = type >= ComponentType::f32 ? 1 : normalized ? 0.1 : 12;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+    for (std::size_t c = 0; c < count; ++c)
+      set_component(out.position, v, c,
+                    c < 3 ? scale * component(mesh.position, v, c) : static_cast<double>(v % 7));
+  return out;
+}
+
+TEST(Encode, MovedVerticesHaveTheTypeOfPositions) {
+  const Mesh torus = test::torus(24, 16);
+  for (const Mesh& mesh : {with_positions(torus, ComponentType::i8, 3, false),
+                           with_positions(torus, ComponentType::i16, 3, true),
+                           with_positions(torus, ComponentType::f64, 3, false),
+                           with_positions(torus, ComponentType::f32, 2, false),
+                           with_positions(torus, ComponentType::f32, 5, false)})
+    for (const EncodeOptions& options : manners()) {
+      SCOPED_TRACE(name_of(mesh.position.type));
+      const ProgressiveStrips strips = encoded(model_of({mesh}), options);
+      EXPECT_EQ(decode(strips)->meshes[0], mesh);
+      EXPECT_EQ(strips.meshes[0].placement, options.placement);
+      EXPECT_TRUE(strips.meshes[0].position.same_format(mesh.position));
+    }
+}
+
+TEST(Encode, FreePlacementGivesBetterLevels) {
+  const Model model = model_of({test::torus(60, 40)});
+  const auto volume_at_base = [&](const EncodeOptions& options) {
+    const Mesh base = decode(encoded(model, options), 0)->meshes[0];
+    const std::vector<double> p = positions_as_double(base);
+    double sum = 0;
+    for (std::size_t t = 0; t < base.corners.size(); t += 3) {
+      const double *a = &p[3 * base.corners[t]], *b = &p[3 * base.corners[t + 1]],
+                   *c = &p[3 * base.corners[t + 2]];
+      sum += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+             a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    return sum / 6;
+  };
+  EncodeOptions options = manners().back();  // free, memoryless: keeps the volume
+  options.base_share = 1;
+  const double whole = volume_at_base(options);
+  options.base_share = 0.05;
+  EXPECT_NEAR(volume_at_base(options), whole, 1e-3 * std::abs(whole));
+  options.placement = Placement::subset;
+  EXPECT_GT(std::abs(volume_at_base(options) - whole), 1e-2 * std::abs(whole));
+}
+
+TEST(Encode, TextFilesKeepWhereParentsStand) {
+  EncodeOptions options = manners().back();
+  options.base_share = 0.1;
+  for (const Placement placement : {Placement::free, Placement::subset}) {
+    options.placement = placement;
+    const ProgressiveStrips strips = encoded(model_of({test::torus(30, 20)}), options);
+    const auto text = read_text(write_text(strips)->bytes);
+    ASSERT_TRUE(text);
+    const auto again = encode_with(model_of({text->mesh}), {collapses_of(*text)}, options);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->meshes[0].placement, placement);
+    const auto sorted_positions = [](const ProgressiveStrips& from) {
+      std::vector<double> p = positions_as_double(decode(from, 0)->meshes[0]);
+      std::ranges::sort(p);
+      return p;
+    };
+    EXPECT_EQ(sorted_positions(*again), sorted_positions(strips));
+  }
+}
+
+TEST(Encode, ReportsHowCollapsesWereChosen) {
+  const Model model = model_of({test::torus(20, 20), test::random_soup(7, 40, 200)});
+  std::vector<SimplifyReport> reports;
+  const auto strips = encode(model, {.base_share = 0.1}, {}, &reports);
+  ASSERT_TRUE(strips);
+  ASSERT_EQ(reports.size(), 2u);
+  EXPECT_EQ(reports[0].triangles, 800u);
+  for (std::size_t m = 0; m < 2; ++m) {
+    EXPECT_EQ(reports[m].base_triangles, strips->bases[m].triangles);
+    EXPECT_EQ(reports[m].stop, SimplifyStop::target);
+  }
+  EXPECT_EQ(reports[0].forced, GuardCounts{});
+  EXPECT_GT(reports[1].refused.border + reports[1].refused.link, 0u);
+}
+
+TEST(Encode, AttributesCountAsMuchAsTheyWeigh) {
+  // A plane with a spot of another colour.
+  constexpr Index kSide = 33;
+  Mesh mesh = test::grid(kSide);
+  Attribute colour{"COLOR_0", ComponentType::u8, 1, true, Bytes(kSide * kSide)};
+  for (Index v = 0; v < kSide * kSide; ++v) {
+    set_component(mesh.position, v, 2, 0);
+    const bool spot = v % kSide / 8 == 1 && v / kSide / 8 == 2;
+    colour.data[v] = std::byte{spot ? std::uint8_t{255} : std::uint8_t{0}};
+  }
+  mesh.wedge_attributes.push_back(colour);
+  const Model model = model_of({mesh});
+  const auto levels_error = [&](std::vector<AttributeWeight> weights) {
+    EncodeOptions options;
+    options.attribute_weights = std::move(weights);
+    options.base_triangles = 10;
+    return encoded(model, options).bases[0].error;
+  };
+  EXPECT_GT(levels_error({}), 0.1f);
+  EXPECT_GT(levels_error({{"COLOR", 1}}), 5 * levels_error({}));
+  EXPECT_LT(levels_error({{"COLOR_0", 0}}), 1e-3f);
+  EXPECT_LT(levels_error({{"COLOR", 1}, {"COLOR_0", 0}}), 1e-3f) << "the exact name wins";
 }
 
 TEST(Encode, EveryStripifierGivesTheMeshBack) {

@@ -28,11 +28,13 @@ struct Variant {
   MapEncoding encoding;
   bool xml;
   bool keep_order;
+  Placement placement = Placement::subset;
+  Metric metric = Metric::qem;
 };
 
-// Together they have both values of each; all eight run on small models.
+// Together they have both values of each; all of the others run on small models.
 const Variant kTwo[] = {{MapEncoding::offset_difference, false, true},
-                        {MapEncoding::naive, true, false}};
+                        {MapEncoding::naive, true, false, Placement::free, Metric::memoryless}};
 const Variant kAll[] = {{MapEncoding::naive, false, false},
                         {MapEncoding::naive, false, true},
                         {MapEncoding::naive, true, false},
@@ -40,7 +42,10 @@ const Variant kAll[] = {{MapEncoding::naive, false, false},
                         {MapEncoding::offset_difference, false, false},
                         {MapEncoding::offset_difference, false, true},
                         {MapEncoding::offset_difference, true, false},
-                        {MapEncoding::offset_difference, true, true}};
+                        {MapEncoding::offset_difference, true, true},
+                        {MapEncoding::offset_difference, false, true, Placement::free},
+                        {MapEncoding::naive, true, true, Placement::free, Metric::memoryless},
+                        {MapEncoding::naive, false, false, Placement::subset, Metric::memoryless}};
 constexpr std::uint64_t kLargeCorners = 20'000;
 
 std::uint64_t corners_of(const Model& model) {
@@ -54,6 +59,8 @@ std::string round_trip(const Model& model, const Variant& variant) {
   EncodeOptions options;
   options.encoding = variant.encoding;
   options.keep_order = variant.keep_order;
+  options.placement = variant.placement;
+  options.metric = variant.metric;
   auto strips = encode(model, options);
   if (!strips) return "encode: " + strips.error().message;
   Bytes file;
