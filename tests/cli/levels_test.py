@@ -51,8 +51,8 @@ class Levels(ProgramTest):
                 self.run_program("extract", "-q", "out.pstrip", "base.ply", "--level", "0")
                 report = self.report("compare", "grid.obj", "base.ply", code=7)
                 rms[placement, metric] = report["rms"]
-        self.assertLess(rms["optimal", "qem"], rms["subset", "qem"])
-        self.assertLess(rms["optimal", "memoryless"], rms["optimal", "qem"])
+        for metric in ("qem", "memoryless"):
+            self.assertLess(rms["optimal", metric], 0.9 * rms["subset", metric], rms)
 
     def test_level(self):
         for command in ("extract", "convert"):
