@@ -8,17 +8,19 @@
 #include "converters/merge.h"
 #include "converters/text_collapses.h"
 #include "formats/gltf/gltf.h"
+#include "formats/medit/medit.h"
 #include "formats/obj/obj.h"
 #include "formats/ply/ply.h"
 #include "formats/pstrip/binary.h"
 #include "formats/pstrip/text.h"
 #include "formats/pstrip/xml.h"
+#include "formats/xyz/xyz.h"
 
 namespace pstrip {
 namespace {
 
-constexpr std::array<std::string_view, 7> kNames = {"ply",    "obj",     "gltf", "glb",
-                                                    "pstrip", "pstripx", "pm"};
+constexpr std::array<std::string_view, 8> kNames = {"ply", "obj",    "gltf",    "glb",
+                                                    "xyz", "pstrip", "pstripx", "pm"};
 
 // Companions are looked for in the folder of the model.
 auto companions_of(const std::string& path, const Limits& limits) {
@@ -77,6 +79,8 @@ Result<LoadedFile> parse(FileFormat format, const FileBytes& file, const std::st
       if (out) out->notes = std::move(notes);
       return out;
     }
+    case FileFormat::xyz:
+      return loaded(format, read_xyz(bytes, options.limits));
     case FileFormat::pstrip:
       return load_binary(file, options);
     case FileFormat::pstripx:
@@ -239,6 +243,17 @@ Result<LoadedFile> load(const std::string& path, const LoadOptions& options) {
   return load(*file, path, options);
 }
 
+Result<TetraMesh> load_tetra_mesh(const FileBytes& file, const Limits& limits) {
+  return read_medit(file.view(), limits);
+}
+
+bool holds_tetra_mesh(const FileBytes& file, const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".mesh" || looks_like_medit(file.view());
+}
+
 Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat format,
                         const SaveOptions& options) {
   switch (format) {
@@ -249,6 +264,8 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
     case FileFormat::gltf:
     case FileFormat::glb:
       return save_gltf(model, path, format, options);
+    case FileFormat::xyz:
+      return fail(ErrorCode::bad_argument, "points in text are read, not written");
     default:
       return fail(ErrorCode::bad_argument, "a progressive format needs encoding first");
   }

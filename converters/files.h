@@ -13,10 +13,11 @@
 #include "core/limits.h"
 #include "core/progressive_strips.h"
 #include "core/scene.h"
+#include "core/tetra.h"
 
 namespace pstrip {
 
-enum class FileFormat : std::uint8_t { ply, obj, gltf, glb, pstrip, pstripx, pm };
+enum class FileFormat : std::uint8_t { ply, obj, gltf, glb, xyz, pstrip, pstripx, pm };
 
 /// "ply" … as file extensions without the dot.
 std::string_view name_of(FileFormat format);
@@ -59,6 +60,10 @@ Result<LoadedFile> load(const std::string& path, const LoadOptions& options = {}
 /// The same for a file that was opened already; the path says where its companions are.
 Result<LoadedFile> load(const FileBytes& file, const std::string& path,
                         const LoadOptions& options = {});
+
+/// Reads the tetrahedra of a file that looks_like_medit(), or is called ".mesh".
+Result<TetraMesh> load_tetra_mesh(const FileBytes& file, const Limits& limits = {});
+bool holds_tetra_mesh(const FileBytes& file, const std::string& path);
 
 struct SaveOptions {
   bool ascii = false;   ///< PLY: text instead of little-endian binary
