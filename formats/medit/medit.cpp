@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "formats/ply/ply_numbers.h"
+#include "core/numbers.h"
 
 namespace pstrip {
 namespace {
@@ -29,13 +29,13 @@ class MeditReader {
 
   // The next word, or an empty one at the end. Keeps where it begins in at_.
   std::string_view word() {
-    for (at_ = next_; at_ < text_.size() && (ply::is_space(text_[at_]) || text_[at_] == '#');) {
+    for (at_ = next_; at_ < text_.size() && (is_space(text_[at_]) || text_[at_] == '#');) {
       if (text_[at_] == '#')
         at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
       else
         ++at_;
     }
-    for (next_ = at_; next_ < text_.size() && !ply::is_space(text_[next_]) && text_[next_] != '#';)
+    for (next_ = at_; next_ < text_.size() && !is_space(text_[next_]) && text_[next_] != '#';)
       ++next_;
     return text_.substr(at_, next_ - at_);
   }
@@ -44,10 +44,8 @@ class MeditReader {
   bool number(T& value) {
     const std::string_view token = word();
     if (token.empty()) return refuse(ErrorCode::truncated, "ends within a section");
-    const char* p = token.data();
-    const char* const end = p + token.size();
-    if (ply::parse_number(p, end, value) && p == end) return true;
-    const bool is_cut = next_ == text_.size() && ply::may_start_number(token);
+    if (parse_number(token, value)) return true;
+    const bool is_cut = next_ == text_.size() && parse_number(std::string(token) + '0', value);
     return is_cut ? refuse(ErrorCode::truncated, "ends within a number")
                   : refuse(ErrorCode::corrupt, "not a number of this kind");
   }
@@ -91,7 +89,7 @@ class MeditReader {
     for (;;) {
       const std::string_view token = word();
       double value = 0;
-      if (!token.empty() && (!is_letter(token.front()) || ply::parse_token(token, value))) continue;
+      if (!token.empty() && (!is_letter(token.front()) || parse_number(token, value))) continue;
       next_ = at_;
       return true;
     }
@@ -179,7 +177,7 @@ class MeditReader {
 
 bool looks_like_medit(ByteView file) {
   std::string_view text = as_text(file).substr(0, 4096);
-  while (!text.empty() && (ply::is_space(text.front()) || text.front() == '#'))
+  while (!text.empty() && (is_space(text.front()) || text.front() == '#'))
     text.remove_prefix(text.front() == '#' ? std::min(text.find('\n'), text.size()) : 1);
   return text.starts_with(kFirstWord);
 }

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <bit>
-#include <cstdint>
 #include <cstring>
-#include <limits>
 #include <string_view>
-#include <type_traits>
 
 #include "core/mesh.h"
 

@@ -4,12 +4,12 @@
 #include <cstring>
 #include <optional>
 
-#include "formats/ply/ply_numbers.h"
+#include "core/numbers.h"
 
 namespace pstrip {
 namespace {
 
-constexpr bool parts_columns(char c) { return ply::is_space(c) || c == ',' || c == ';'; }
+constexpr bool parts_columns(char c) { return is_space(c) || c == ',' || c == ';'; }
 
 // Takes the next column off the line; empty when there is none.
 std::string_view next_column(std::string_view& line) {
@@ -22,17 +22,10 @@ std::string_view next_column(std::string_view& line) {
   return column;
 }
 
-// The inline road of parse_number ends at white space only; other columns take the general one.
-bool parse_column(std::string_view column, double& value) {
-  const char* at = column.data();
-  const char* const end = at + column.size();
-  return !column.empty() && ply::parse_number(at, end, value) && at == end;
-}
-
 // How many of the first three columns are numbers, up to the first that is not.
 std::size_t parse_point(std::string_view line, double (&point)[3]) {
   std::size_t count = 0;
-  while (count < 3 && parse_column(next_column(line), point[count])) ++count;
+  while (count < 3 && parse_number(next_column(line), point[count])) ++count;
   return count;
 }
 

@@ -13,7 +13,7 @@ namespace pstrip {
 /// columns  beyond the third are passed over, whatever they say
 /// lines    "#" begins a comment; empty lines mean nothing. Before the first point there may be
 ///          lines of something else, as programs write them: column names, a count
-/// numbers  any notation of C, "nan" and "inf" (in any case), correctly rounded
+/// numbers  decimals in the range of a double, correctly rounded; "nan" and "inf" in any case
 /// errors   corrupt for a line of fewer than three numbers, truncated when it is the last one and
 ///          has no end, both with its offset and "line N"; over_limit
 /// cost     O(size)
