@@ -5,6 +5,7 @@
 
 #include "cli/heap.h"
 #include "codecs/stripify/check.h"
+#include "codecs/stripify/delaunay.h"
 #include "converters/strip_mesh.h"
 
 namespace pstrip::cli {
@@ -41,6 +42,26 @@ std::string find_fault(const Mesh& mesh, const StripMap& map) {
                           map.entries);
 }
 
+std::vector<double> wedge_positions(const Mesh& mesh) {
+  std::vector<double> positions = positions_as_double(mesh);
+  if (mesh.wedge_vertex.empty()) return positions;
+  std::vector<double> out;
+  for (const Index v : mesh.wedge_vertex) {
+    const auto at = positions.begin() + 3 * std::ptrdiff_t{v};
+    out.insert(out.end(), at, at + 3);
+  }
+  return out;
+}
+
+std::string find_point_fault(std::span<const double> positions, const Strips& strips,
+                             const StripOptions& options) {
+  const std::vector<Index> triangles = delaunay_triangles(positions, options);
+  return find_strip_fault({.triangles = triangles,
+                           .group = {},
+                           .wedge_count = static_cast<Index>(positions.size() / 3)},
+                          strips);
+}
+
 void add(StripStats& sum, const StripStats& stats) {
   const double misses = sum.acmr16 * static_cast<double>(sum.triangles) +
                         stats.acmr16 * static_cast<double>(stats.triangles);
@@ -70,6 +91,27 @@ StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
     const bool free_diagonals = stripifier.run_polygons && !mesh.face_first.empty();
     if (out.remark.empty() && !free_diagonals) out.remark = find_fault(mesh, map);
     if (in_strip_order) mesh = in_order(mesh, map);
+  }
+  return out;
+}
+
+StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
+                                  const StripOptions& options, bool in_strip_order) {
+  StripFigures out;
+  for (Mesh& mesh : model.meshes) {
+    const std::vector<double> positions = wedge_positions(mesh);
+    const HeapPeak heap;
+    const auto start = std::chrono::steady_clock::now();
+    StripMap map{.entries = stripifier.run(positions, options), .group_entries = {}};
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
+    out.milliseconds += time.count();
+    out.peak_bytes = std::max(out.peak_bytes, heap.bytes());
+    add(out.stats, strip_stats(map.entries));
+    if (out.remark.empty()) out.remark = find_point_fault(positions, map.entries, options);
+    if (!in_strip_order) continue;
+    map.group_entries.assign(1, static_cast<Index>(map.entries.size()));
+    mesh.groups.assign(1, {});
+    mesh = in_order(mesh, map);
   }
   return out;
 }

@@ -29,4 +29,10 @@ struct StripFigures {
 StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
                             const StripOptions& options, bool in_strip_order);
 
+/// The same for a stripifier of points: those of each mesh, whatever faces it has. With
+/// `in_strip_order` the triangles take the place of the faces.
+/// Precondition: no mesh has more than kMaxDelaunayPoints wedges.
+StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
+                                  const StripOptions& options, bool in_strip_order);
+
 }  // namespace pstrip::cli

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,8 @@
 #include "cli/output.h"
 #include "cli/strip_figures.h"
 #include "cli/stripifier_table.h"
+#include "cli/stripify_tetra.h"
+#include "codecs/stripify/delaunay.h"
 
 namespace pstrip::cli {
 namespace {
@@ -26,10 +29,34 @@ struct Options {
 
   const std::string& input() const { return files[0]; }
   std::string output() const { return files.size() > 1 ? files[1] : std::string(); }
-  std::string algorithm_or_best() const { return algorithm.empty() ? "best" : algorithm; }
 };
 
-void print_text(std::ostream& out, const StripFigures& f, const Options& options) {
+// Those of --algorithm for each kind of input.
+struct Algorithm {
+  const NamedStripifier* triangles = nullptr;
+  const NamedPointStripifier* points = nullptr;
+  bool tetrahedra = false;
+
+  explicit Algorithm(std::string_view name)
+      : triangles(find_stripifier(name)),
+        points(find_point_stripifier(name)),
+        tetrahedra(name == kTetraStripifier) {}
+  bool is_any() const { return triangles || points || tetrahedra; }
+};
+
+bool has_faces(const Model& model) {
+  return std::ranges::any_of(model.meshes, [](const Mesh& m) { return m.face_count() > 0; });
+}
+bool has_points(const Model& model) {
+  return std::ranges::any_of(model.meshes, [](const Mesh& m) { return m.vertex_count() > 0; });
+}
+bool has_too_many_points(const Model& model) {
+  return std::ranges::any_of(model.meshes,
+                             [](const Mesh& m) { return m.wedge_count() > kMaxDelaunayPoints; });
+}
+
+void print_text(std::ostream& out, const StripFigures& f, const std::string& algorithm,
+                const Options& options) {
   const StripStats& s = f.stats;
   Table table({"", ""});
   table.add({"triangles", grouped(s.triangles)});
@@ -40,19 +67,19 @@ void print_text(std::ostream& out, const StripFigures& f, const Options& options
   table.add({"a triangle", fmt::format("{:.3f}", f.indices_per_triangle())});
   table.add({"ACMR, FIFO 16", fmt::format("{:.3f}", s.acmr16)});
   table.add({"milliseconds", fmt::format("{:.1f}", f.milliseconds)});
-  out << escaped(options.input()) << ": " << options.algorithm_or_best() << "\n";
+  out << escaped(options.input()) << ": " << algorithm << "\n";
   table.print(out);
 }
 
 void print_json(std::ostream& out, const StripFigures& f, const Error* error,
-                const Options& options) {
+                const std::string& algorithm, const Options& options) {
   using Json = nlohmann::ordered_json;
   const StripStats& s = f.stats;
   Json json;
   json["schema"] = "pstrips-stripify-1";
   json["file"] = escaped(options.input());
   json["error"] = error ? json_of<Json>(*error) : Json();
-  json["algorithm"] = options.algorithm_or_best();
+  json["algorithm"] = algorithm;
   json["triangles"] = s.triangles;
   json["strips"] = s.strips;
   json["singletons"] = s.singletons;
@@ -64,8 +91,8 @@ void print_json(std::ostream& out, const StripFigures& f, const Error* error,
   out << json.dump(2) << "\n";
 }
 
-Result<Model> open_model(const Options& options) {
-  auto file = load(options.input(),
+Result<Model> open_model(const FileBytes& bytes, const Options& options) {
+  auto file = load(bytes, options.input(),
                    {.limits = options.limits.limits, .allow_prefix = false, .text_options = {}});
   if (!file) return tl::unexpected(file.error());
   return std::move(*file).model();
@@ -81,27 +108,31 @@ ExitCode compare(const Options& options, const StripOptions& strip_options, cons
                              io);
 }
 
-ExitCode run(const Options& options, const Streams& io) {
-  const auto strip_options = options.stripping.get();
-  if (!strip_options) return complain(io, strip_options.error());
-  if (options.compare) return compare(options, *strip_options, io);
-  const NamedStripifier* algorithm = find_stripifier(options.algorithm_or_best());
-  if (!algorithm)
-    return complain(
-        io, {ErrorCode::bad_argument,
-             "--algorithm takes one of those that --help lists, or several with --compare"});
-  if (options.files.size() > 2 || options.format.csv() || options.format.md())
-    return complain(io, {ErrorCode::bad_argument, "several models, csv and md are for --compare"});
-  auto opened = open_model(options);
-  if (!opened) {
-    if (options.format.json()) print_json(io.out, {}, &opened.error(), options);
-    return complain(io, opened.error(), options.input());
-  }
-  Model model = std::move(opened).value();
+ExitCode refuse_input(const Options& options, const Error& error, const Streams& io) {
+  const std::string name = options.algorithm.empty() ? "best" : options.algorithm;
+  if (options.format.json()) print_json(io.out, {}, &error, name, options);
+  return complain(io, error, options.input());
+}
+
+ExitCode stripify_model(Model model, const Options& options, const StripOptions& strip_options,
+                        const Streams& io) {
+  const bool points_only = has_points(model) && !has_faces(model);
+  const std::string name = !options.algorithm.empty() ? options.algorithm
+                           : points_only              ? "delaunay"
+                                                      : "best";
+  const Algorithm algorithm(name);
+  if (algorithm.tetrahedra)
+    return refuse_input(options, {ErrorCode::unsupported, "holds no tetrahedra"}, io);
+  if (algorithm.points && has_too_many_points(model))
+    return refuse_input(options, {ErrorCode::over_limit, "more points than can be triangulated"},
+                        io);
   const std::string output = options.output();
-  const StripFigures figures = measure_strips(model, *algorithm, *strip_options, !output.empty());
+  const StripFigures figures =
+      algorithm.points
+          ? measure_point_strips(model, *algorithm.points, strip_options, !output.empty())
+          : measure_strips(model, *algorithm.triangles, strip_options, !output.empty());
   if (!figures.remark.empty())
-    return complain(io, {ErrorCode::corrupt, options.algorithm_or_best() + " " + figures.remark});
+    return complain(io, {ErrorCode::corrupt, name + " " + figures.remark});
   options.stripping.note_time_limit(io);
   if (!output.empty()) {
     const auto target = options.target.format_for(output);
@@ -115,10 +146,40 @@ ExitCode run(const Options& options, const Streams& io) {
   // Figures are the result; with the mesh on standard output they would be in its way.
   std::ostream& out = output == "-" ? io.err : io.out;
   if (options.format.json())
-    print_json(out, figures, nullptr, options);
+    print_json(out, figures, nullptr, name, options);
   else
-    print_text(out, figures, options);
+    print_text(out, figures, name, options);
   return kOk;
+}
+
+ExitCode run(const Options& options, const Streams& io) {
+  const auto strip_options = options.stripping.get();
+  if (!strip_options) return complain(io, strip_options.error());
+  if (options.compare) return compare(options, *strip_options, io);
+  if (!options.algorithm.empty() && !Algorithm(options.algorithm).is_any())
+    return complain(
+        io, {ErrorCode::bad_argument,
+             "--algorithm takes one of those that --help lists, or several with --compare"});
+  if (options.files.size() > 2 || options.format.csv() || options.format.md())
+    return complain(io, {ErrorCode::bad_argument, "several models, csv and md are for --compare"});
+  const auto file = read_file(options.input(), options.limits.limits.memory_bytes);
+  if (file && holds_tetra_mesh(*file, options.input())) {
+    if (!options.algorithm.empty() && !Algorithm(options.algorithm).tetrahedra)
+      return complain(io, {ErrorCode::bad_argument, "tetrahedra take tetra-multi-path"},
+                      options.input());
+    const ExitCode code = stripify_tetra(*file,
+                                         {.input = options.input(),
+                                          .output = options.output(),
+                                          .json = options.format.json(),
+                                          .strip_options = *strip_options,
+                                          .limits = options.limits.limits},
+                                         io);
+    options.stripping.note_time_limit(io);
+    return code;
+  }
+  auto opened = file ? open_model(*file, options) : Result<Model>(tl::unexpected(file.error()));
+  return opened ? stripify_model(std::move(*opened), options, *strip_options, io)
+                : refuse_input(options, opened.error(), io);
 }
 
 }  // namespace
@@ -131,15 +192,18 @@ Command add_stripify(CLI::App& root) {
   for (const NamedStripifier& stripifier : stripifiers())
     names += (names.empty() ? "" : ", ") + std::string(stripifier.name);
   app->add_option("files", options->files,
-                  "Model or progressive file, - for standard input; then a file for the triangles "
-                  "in strip order (glTF holds them as strips)")
+                  "Model, points or progressive file, - for standard input; then a file for the "
+                  "triangles in strip order (glTF holds them as strips). Or tetrahedra (MEDIT); "
+                  "then a file for the strips as text")
       ->required();
   app->add_flag("--compare", options->compare,
                 "A table of all algorithms, and of other libraries' that are installed; all files "
                 "are inputs");
   app->add_option(
          "--algorithm,--stripifier", options->algorithm,
-         "One of " + names + " (default best); with --compare any number, parted by commas")
+         "One of " + names +
+             "; points: delaunay; tetrahedra: tetra-multi-path (default best, or what fits the "
+             "input); with --compare any number, parted by commas")
       ->type_name("NAME");
   options->stripping.add_to(*app);
   options->target.add_to(*app);
