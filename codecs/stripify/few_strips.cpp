@@ -12,13 +12,12 @@ using HalfEdge = LinkedPaths::HalfEdge;
 
 class Joiner {
  public:
-  Joiner(LinkedPaths& paths, const StripOptions& options, int most_swaps)
+  Joiner(LinkedPaths& paths, const StripOptions& options)
       : paths_(paths),
         index_(paths),
         random_(options.seed),
         stop_(options.stop),
-        most_swaps_(most_swaps),
-        moves_left_(static_cast<std::int64_t>(options.effort) * paths.triangle_count() / 2),
+        moves_left_(static_cast<std::int64_t>(options.effort) * paths.triangle_count()),
         place_of_(paths.triangle_count(), kNone),
         seen_(paths.triangle_count()),
         distance_(paths.triangle_count()) {
@@ -27,40 +26,15 @@ class Joiner {
   }
 
   void run() {
-    const std::int64_t budget = moves_left_;
-    std::size_t failures = 0;
-    int rounds_at_the_limit = 0;
     for (std::size_t walks = 1; moves_left_ > 0 && !ends_.empty(); ++walks) {
       if (walks % kWalksBetweenAsking == 0 && stop_ && stop_()) break;
-      if (moves_left_ < budget * 2 / 3) max_slides_ = kMaxSlides;
-      if (moves_left_ < budget / 2) swap_limit_ = most_swaps_;
-      const Index t = ends_[random_.below(static_cast<Index>(ends_.size()))];
-      switch (walk(t)) {
-        case Outcome::joined:
-          failures = 0;
-          break;
-        case Outcome::alone:
-          remove_end(t);
-          break;
-        case Outcome::failed:
-          if (++failures <= kTriesAnEnd * ends_.size()) break;
-          failures = 0;
-          if (max_slides_ == kMaxSlides && swap_limit_ == most_swaps_ && most_swaps_ < kAnySwaps &&
-              ++rounds_at_the_limit > kRoundsAtTheLimit)
-            return;
-          max_slides_ = std::min(max_slides_ * 2, kMaxSlides);
-          swap_limit_ = std::min(swap_limit_ * 3 / 2 + 1, most_swaps_);
-          break;
-      }
+      walk(ends_[random_.below(static_cast<Index>(ends_.size()))]);
     }
   }
 
  private:
-  enum class Outcome { joined, failed, alone };
-  static constexpr std::size_t kTriesAnEnd = 1;
-  static constexpr int kMovesAFlip = 2;  // as long as so many tries
-  static constexpr int kRoundsAtTheLimit = 10;
   static constexpr std::size_t kWalksBetweenAsking = 16;
+  static constexpr int kMovesAFlip = 2;  // takes as long as so many tries
   static constexpr int kMaxSlides = 300;
   static constexpr int kMaxSlidesAside = 40;  // without coming nearer
   // Scores are in eighths of a dual edge.
@@ -92,8 +66,6 @@ class Joiner {
   Index neighbor(HalfEdge h) const { return LinkedPaths::triangle_of(paths_.opposite(h)); }
 
   void flip(HalfEdge h) {
-    const int swaps = paths_.swaps_with(h);
-    swaps_ += paths_.is_linked(h) ? -swaps : swaps;
     index_.flip(h);
     moves_left_ -= kMovesAFlip;
     update_end(LinkedPaths::triangle_of(h));
@@ -129,7 +101,7 @@ class Joiner {
     return false;
   }
 
-  Outcome walk(Index t) {
+  void walk(Index t) {
     const Index mate = index_.mate(t);
     Index target = kNone;
     bool is_alone = true;
@@ -143,43 +115,31 @@ class Joiner {
       target = n;
       return false;
     });
-    if (target == kNone) return is_alone ? Outcome::alone : Outcome::failed;
+    if (target == kNone) {
+      if (is_alone) remove_end(t);
+      return;
+    }
     const Index reach = distance_[target] + 4;
     search(target, [&](Index n) { return distance_[n] < reach; });
 
-    log_.clear();
-    swaps_ = 0;
     Slide last{kNone, kNone};
     Index nearest = distance_[t];
     int aside = 0;
-    for (int slides = 0; slides < max_slides_ && aside < kMaxSlidesAside; ++slides) {
-      if (const HalfEdge link = best_join(t); link != kNone) {
-        flip(link);
-        if (swaps_ <= swap_limit_) return Outcome::joined;
-        flip(link);
-        break;
-      }
+    for (int slides = 0; slides < kMaxSlides && aside < kMaxSlidesAside; ++slides) {
+      if (try_join(t)) return;
       const Slide slide = best_slide(t, target, last, reach);
-      if (slide.link == kNone) break;
+      if (slide.link == kNone) return;
       flip(slide.cut);
       flip(slide.link);
-      log_.push_back(slide);
       last = slide;
       t = neighbor(slide.cut);
       const Index distance = seen_[t] == search_ ? distance_[t] : reach;
       aside = distance < nearest ? 0 : aside + 1;
       nearest = std::min(nearest, distance);
     }
-    // With all limits gone, walks that lead nowhere still bring other ends within reach.
-    if (max_slides_ == kMaxSlides && swap_limit_ == kAnySwaps) return Outcome::failed;
-    for (; !log_.empty(); log_.pop_back()) {
-      flip(log_.back().link);
-      flip(log_.back().cut);
-    }
-    return Outcome::failed;
   }
 
-  HalfEdge best_join(Index t) const {
+  bool try_join(Index t) {
     HalfEdge best = kNone;
     int fewest_swaps = 0;
     for (Index k = 0; k < 3; ++k) {
@@ -192,7 +152,9 @@ class Joiner {
       best = h;
       fewest_swaps = swaps;
     }
-    return best;
+    if (best == kNone) return false;
+    flip(best);
+    return true;
   }
 
   Slide best_slide(Index t, Index target, const Slide& last, Index reach) {
@@ -233,21 +195,14 @@ class Joiner {
   PathIndex index_;
   Random random_;
   const std::function<bool()>& stop_;
-  int most_swaps_;
-  int swaps_ = 0;                              // that the walk has added
-  int swap_limit_ = std::min(3, most_swaps_);  // for a joined strip
   std::int64_t moves_left_;
-  int max_slides_ = 30;
   std::vector<Index> ends_, place_of_;  // the ends that may still find another
   std::vector<Index> seen_, distance_, queue_;
   Index search_ = 0;
-  std::vector<Slide> log_;
 };
 
 }  // namespace
 
-void join_strips(LinkedPaths& paths, const StripOptions& options, int most_swaps) {
-  Joiner(paths, options, most_swaps).run();
-}
+void join_strips(LinkedPaths& paths, const StripOptions& options) { Joiner(paths, options).run(); }
 
 }  // namespace pstrip

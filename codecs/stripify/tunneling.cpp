@@ -12,9 +12,10 @@ using HalfEdge = LinkedPaths::HalfEdge;
 
 class Tunneler {
  public:
-  Tunneler(LinkedPaths& paths, const StripOptions& options)
+  Tunneler(LinkedPaths& paths, const StripOptions& options, int most_swaps)
       : paths_(paths),
         stop_(options.stop),
+        most_swaps_(most_swaps),
         max_depth_((std::max(options.tunnel_length, 1u) - 1) / 2),
         steps_left_(options.tunnel_length == 0
                         ? 0
@@ -40,6 +41,7 @@ class Tunneler {
 
  private:
   static constexpr std::uint64_t kStepsBetweenAsking = 4096;
+  static constexpr std::uint64_t kStepsAsLongAsOne = 8;  // what a long branch costs to look through
 
   // On the path that is named after its first triangle; since when.
   struct Place {
@@ -66,11 +68,13 @@ class Tunneler {
     steps_.assign(1, {0, 0, kNone, kNone, kNone, start});
     for (Index s = 0; s < steps_.size() && may_go_on(); ++s) {
       collect_branch(s);
+      steps_left_ -= std::min<std::uint64_t>(steps_left_, branch_.size() / kStepsAsLongAsOne);
       for (Index k = 0; k < 3; ++k) {
         const HalfEdge link = LinkedPaths::half_edge(steps_[s].end, k);
         if (!paths_.has_opposite(link) || paths_.is_linked(link) || is_on_branch(over(link)))
           continue;
-        if (leads_to_another_strip(link)) {
+        if (leads_to_another_strip(link) &&
+            (most_swaps_ == kAnySwaps || swaps_of(link) <= most_swaps_)) {
           dig(link);
           return true;
         }
@@ -82,7 +86,8 @@ class Tunneler {
 
   bool may_go_on() {
     if (steps_left_ == 0) return false;
-    if (--steps_left_ % kStepsBetweenAsking == 0 && stop_ && stop_()) steps_left_ = 0;
+    --steps_left_;
+    if (++steps_made_ % kStepsBetweenAsking == 0 && stop_ && stop_()) steps_left_ = 0;
     return steps_left_ > 0;
   }
 
@@ -156,12 +161,30 @@ class Tunneler {
     return next;
   }
 
-  void dig(HalfEdge last_link) {
+  // Changes the branch and the link that makes it a tunnel, or changes them back; gives the swaps
+  // that this adds.
+  int change_tunnel(HalfEdge last_link) {
+    int swaps = 0;
+    const auto flip = [&](HalfEdge h) {
+      swaps += paths_.is_linked(h) ? -paths_.swaps_with(h) : paths_.swaps_with(h);
+      paths_.flip(h);
+    };
     for (std::size_t i = 1; i < branch_.size(); ++i) {
-      paths_.flip(branch_[i].link);
-      paths_.flip(branch_[i].cut);
+      flip(branch_[i].cut);
+      flip(branch_[i].link);
     }
-    paths_.flip(last_link);
+    flip(last_link);
+    return swaps;
+  }
+
+  int swaps_of(HalfEdge last_link) {
+    const int swaps = change_tunnel(last_link);
+    change_tunnel(last_link);
+    return swaps;
+  }
+
+  void dig(HalfEdge last_link) {
+    change_tunnel(last_link);
     ++numbering_;
     number_path_of(over(last_link));
     for (std::size_t i = 1; i < branch_.size(); ++i) {
@@ -191,8 +214,9 @@ class Tunneler {
 
   LinkedPaths& paths_;
   const std::function<bool()>& stop_;
+  int most_swaps_;
   Index max_depth_;
-  std::uint64_t steps_left_;
+  std::uint64_t steps_left_, steps_made_ = 0;
   std::vector<Place> place_;
   std::vector<Index> last_;  // of the first triangle of a path
   Index numbering_ = 1;
@@ -205,8 +229,8 @@ class Tunneler {
 
 }  // namespace
 
-void dig_tunnels(LinkedPaths& paths, const StripOptions& options) {
-  Tunneler(paths, options).run();
+void dig_tunnels(LinkedPaths& paths, const StripOptions& options, int most_swaps) {
+  Tunneler(paths, options, most_swaps).run();
 }
 
 Strips tunneling(const StripInput& input, const StripOptions& options) {

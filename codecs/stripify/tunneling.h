@@ -5,13 +5,16 @@
 
 namespace pstrip {
 
+inline constexpr int kAnySwaps = 1 << 30;
+
 /// Joins strips by tunnels. A tunnel leads from an end of one strip to an end of another over edges
 /// of the dual graph that are linked and not linked by turns, the first and the last one not;
 /// changing every edge of it makes the two strips one. [Stewart01; Vanecek05 §2.2]
 ///
-/// From every end in turn the shortest tunnel of at most `options.tunnel_length` edges is looked
-/// for, breadth first, and dug; round after round until none is found, until the searches have
-/// made `options.tunnel_effort` steps a triangle, or `options.stop` says so.
+/// From every end in turn the shortest tunnel of at most `options.tunnel_length` edges that adds
+/// at most `most_swaps` swaps is looked for, breadth first, and dug; round after round until none
+/// is found, until the searches have made `options.tunnel_effort` steps a triangle (a step
+/// counts one more for every eight before it), or `options.stop` says so.
 ///
 /// Changing a tunnel may bend strips into rings, and the longer it is, the likelier. Here a step
 /// that closes a ring is not taken, so that every tunnel found can be dug. Where rings are looked
@@ -20,7 +23,7 @@ namespace pstrip {
 ///
 /// cost  at most tunnel_effort n steps, each of some tunnel_length^2 operations at worst and a few
 ///       in practice; a tunnel that is dug, as much as the strips it changes are long
-void dig_tunnels(LinkedPaths& paths, const StripOptions& options);
+void dig_tunnels(LinkedPaths& paths, const StripOptions& options, int most_swaps = kAnySwaps);
 
 /// SGI's strips (sgi_strips_links), joined by tunnels.
 Strips tunneling(const StripInput& input, const StripOptions& options);
