@@ -21,6 +21,7 @@ constexpr NamedStripifier kStripifiers[] = {
     {.name = "best",
      .source = "ours, codecs/stripify/best.h",
      .run = best_strips,
+     .run_polygons = best_polygon_strips,
      .honors_goal = true},
     {.name = "sgi-strips", .source = "[Vanecek02 §3; Vanecek05 §8.1 SGS]", .run = sgi_strips},
     {.name = "sgi-vertices", .source = "[Vanecek02 §3; Vanecek05 §8.1 SGV]", .run = sgi_vertices},
