@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/option_groups.h"
 #include "cli/output.h"
+#include "converters/scene_level.h"
 
 namespace pstrip::cli {
 namespace {
@@ -45,19 +46,12 @@ ExitCode run(const Options& options, const Streams& io) {
   if (!saved) return complain(io, saved.error(), options.output);
   note(io, options.output, saved->notes);
   if (!io.quiet && options.output != "-") {
-    std::vector<Packet> now = strips.bases;
-    for (std::size_t k = 0; k < packets; ++k) now[strips.packets[k].mesh] = strips.packets[k];
-    std::uint64_t vertices = 0, triangles = 0;
-    float error = 0;
-    for (const Packet& p : now) {
-      vertices += p.vertices;
-      triangles += p.triangles;
-      error = std::max(error, p.error);
-    }
+    SceneLevel level(strips);
+    for (std::size_t k = 0; k < packets; ++k) level.add(strips.packets[k]);
     io.err << fmt::format("{}: packet {} of {}, {} vertices, {} triangles, error {}{}\n",
                           escaped(options.output), packets, strips.packets.size(),
-                          grouped(vertices), grouped(triangles), figure(error),
-                          strips.complete ? "" : " (the file ends early)");
+                          grouped(level.vertices()), grouped(level.triangles()),
+                          figure(level.error()), strips.complete ? "" : " (the file ends early)");
   }
   return kOk;
 }

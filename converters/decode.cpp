@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "converters/scene_level.h"
+
 namespace pstrip {
 namespace {
 
@@ -48,24 +50,14 @@ void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
 std::size_t packets_for(const ProgressiveStrips& strips, const LevelChoice& choice) {
   const std::size_t all = strips.packets.size();
   if (choice.packets >= 0) return std::min(all, static_cast<std::size_t>(choice.packets));
-  std::vector<Packet> now = strips.bases;  // what each mesh shows
-  const auto triangles = [&] {
-    std::int64_t sum = 0;
-    for (const Packet& p : now) sum += p.triangles;
-    return sum;
-  };
-  const auto error = [&] {
-    float worst = 0;
-    for (const Packet& p : now) worst = std::max(worst, p.error);
-    return static_cast<double>(worst);
-  };
+  SceneLevel level(strips);
   std::size_t fitting = 0;
   for (std::size_t k = 0; k <= all; ++k) {
-    if (k > 0) now[strips.packets[k - 1].mesh] = strips.packets[k - 1];
+    if (k > 0) level.add(strips.packets[k - 1]);
     if (choice.triangles >= 0) {
-      if (triangles() <= choice.triangles) fitting = k;
+      if (level.triangles() <= static_cast<std::uint64_t>(choice.triangles)) fitting = k;
     } else if (choice.error >= 0) {
-      if (error() <= choice.error) return k;
+      if (level.error() <= choice.error) return k;
     }
   }
   return choice.triangles >= 0 ? fitting : all;

@@ -12,7 +12,8 @@ struct LevelChoice {
   std::int64_t packets = -1;  ///< so many packets of the file, in file order
   std::int64_t triangles =
       -1;             ///< the most packets whose triangles, all meshes together, do not exceed this
-  double error = -1;  ///< the fewest packets after which no mesh's error exceeds this
+  double error = -1;  ///< the fewest packets after which the scene's error is at most this, see
+                      ///< SceneLevel
 };
 
 /// How many packets a choice comes to; all of them when nothing is set. The base always counts, so

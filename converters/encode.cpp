@@ -11,7 +11,9 @@
 #include "codecs/vsplit/faces.h"
 #include "codecs/vsplit/level.h"
 #include "codecs/vsplit/record.h"
+#include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
+#include "formats/pstrip/check.h"
 #include "formats/pstrip/digest.h"
 
 namespace pstrip {
@@ -206,13 +208,20 @@ class Encoder {
     mesh.digest.assign(sum.begin(), sum.end());
   }
 
-  ProgressiveStrips join(std::vector<Encoded> encoded) const {
+  Result<ProgressiveStrips> join(std::vector<Encoded> encoded) const {
     ProgressiveStrips out;
     out.generator = "pstrips";
     out.scene = model_.scene;
-    // The mesh whose error is largest gets the next packet.
+    for (Index m = 0; m < encoded.size(); ++m) {
+      out.bases.push_back(encoded[m].base);
+      out.meshes.push_back(std::move(encoded[m].mesh));
+    }
+    if (const Result<void> ok = check_scene(out); !ok)
+      return fail(ErrorCode::bad_argument, ok.error().message, kNoOffset, ok.error().path);
+    // The mesh whose error is largest where it stands gets the next packet.
+    const std::vector<double> scale = instance_scales(out.scene, encoded.size());
     struct Next {
-      float error;
+      double error;
       Index mesh;
       bool operator<(const Next& other) const {
         return error != other.error ? error < other.error : mesh > other.mesh;
@@ -221,15 +230,15 @@ class Encoder {
     std::priority_queue<Next> queue;
     std::vector<std::size_t> taken(encoded.size(), 0);
     for (Index m = 0; m < encoded.size(); ++m) {
-      out.bases.push_back(encoded[m].base);
-      if (!encoded[m].packets.empty()) queue.push({encoded[m].base.error, m});
-      out.meshes.push_back(std::move(encoded[m].mesh));
+      if (!encoded[m].packets.empty())
+        queue.push({SceneLevel::scaled_error(out.bases[m], scale[m]), m});
     }
     while (!queue.empty()) {
       const Index m = queue.top().mesh;
       queue.pop();
       out.packets.push_back(encoded[m].packets[taken[m]++]);
-      if (taken[m] < encoded[m].packets.size()) queue.push({out.packets.back().error, m});
+      if (taken[m] < encoded[m].packets.size())
+        queue.push({SceneLevel::scaled_error(out.packets.back(), scale[m]), m});
     }
     return out;
   }

@@ -49,11 +49,13 @@ struct SimplifyReport {
 /// Turns a model into progressive strips: triangulate, stripify, simplify, record, pack.
 ///
 /// Takes any mesh that find_inconsistency() accepts. Packets of several meshes are interleaved by
-/// error, largest first. Same model and options, same result.
+/// the error that a viewer sees, largest first: that of the mesh times its instance_scales(). Up to
+/// any error of the scene the file then holds the fewest packets. Same model and options, same
+/// result.
 ///
 /// reports  one a mesh is added, unless null
-/// errors   bad_argument for an unknown stripifier or an inconsistent mesh, over_limit for more
-/// than
+/// errors   bad_argument for an unknown stripifier or an inconsistent mesh or scene, over_limit for
+/// more than
 ///          kMaxCount map entries, interrupted
 Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
                                  const Progress& progress = {},

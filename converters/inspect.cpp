@@ -1,9 +1,9 @@
 #include "converters/inspect.h"
 
-#include <algorithm>
 #include <deque>
 
 #include "codecs/filter/display_level.h"
+#include "converters/scene_level.h"
 #include "formats/pstrip/check.h"
 
 namespace pstrip {
@@ -38,32 +38,25 @@ Inspection inspect(const ProgressiveStrips& strips, const std::vector<std::uint6
   if (out.vsplits > 0)
     out.places_per_vsplit = static_cast<double>(out.places) / static_cast<double>(out.vsplits);
 
-  std::vector<Packet> now = strips.bases;
+  SceneLevel scene(strips);
   InspectedLevel row;
-  for (std::size_t m = 0; m < levels.size(); ++m) {
-    row.vertices += now[m].vertices;
-    row.triangles += now[m].triangles;
-    row.strips += now[m].strips;
-    row.vertices_sent += levels[m].cost().vertices_sent;
-  }
+  for (const DisplayLevel& level : levels) row.vertices_sent += level.cost().vertices_sent;
   const auto add_row = [&] {
-    row.error = 0;
-    for (const Packet& p : now) row.error = std::max(row.error, p.error);
+    row.vertices = scene.vertices();
+    row.triangles = scene.triangles();
+    row.strips = scene.strips();
+    row.error = scene.error();
     row.bytes_so_far = row.packet < chunk_ends.size() ? chunk_ends[row.packet] : 0;
     out.levels.push_back(row);
   };
   add_row();
   for (const Packet& packet : strips.packets) {
     DisplayLevel& level = levels[packet.mesh];
-    Packet& before = now[packet.mesh];
     const std::uint64_t sent_before = level.cost().vertices_sent;
     level.refine(packet.vsplits);
     level.update();
-    row.vertices += packet.vertices - before.vertices;
-    row.triangles = row.triangles + packet.triangles - before.triangles;
-    row.strips = row.strips + packet.strips - before.strips;
     row.vertices_sent = row.vertices_sent + level.cost().vertices_sent - sent_before;
-    before = packet;
+    scene.add(packet);
     ++row.packet;
     row.mesh = packet.mesh;
     add_row();

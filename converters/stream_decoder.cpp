@@ -1,6 +1,5 @@
 #include "converters/stream_decoder.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include "converters/decode.h"
@@ -17,27 +16,21 @@ Result<void> StreamDecoder::feed(ByteView bytes) {
   const Result<void> fed = parser_.feed(bytes);
   const ProgressiveStrips& strips = parser_.strips();
   if (!parser_.has_base()) return fed;
-  if (levels_.empty()) {
+  if (!now_) {
     for (const ProgressiveMesh& mesh : strips.meshes) levels_.emplace_back(mesh, filter_);
-    now_ = strips.bases;
+    now_.emplace(strips);
   }
   for (; packets_ < strips.packets.size(); ++packets_) {
     const Packet& packet = strips.packets[packets_];
     levels_[packet.mesh].refine(packet.vsplits);
-    now_[packet.mesh] = packet;
+    now_->add(packet);
   }
   return fed;
 }
 
 StreamDecoder::Totals StreamDecoder::totals() const {
-  Totals out;
-  for (const Packet& p : now_) {
-    out.vertices += p.vertices;
-    out.triangles += p.triangles;
-    out.strips += p.strips;
-    out.error = std::max(out.error, p.error);
-  }
-  return out;
+  if (!now_) return {};
+  return {now_->vertices(), now_->triangles(), now_->strips(), now_->error()};
 }
 
 bool StreamDecoder::update() {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "codecs/filter/display_level.h"
+#include "converters/scene_level.h"
 #include "core/limits.h"
 #include "core/scene.h"
 #include "formats/pstrip/binary.h"
@@ -41,7 +43,7 @@ class StreamDecoder {
   /// What the level shows now, all meshes together.
   struct Totals {
     std::uint64_t vertices = 0, triangles = 0, strips = 0;
-    float error = 0;  ///< the largest of any mesh
+    double error = 0;  ///< see SceneLevel
   };
   Totals totals() const;
 
@@ -59,7 +61,7 @@ class StreamDecoder {
   BinaryParser parser_;
   AppendFilter filter_;
   std::deque<DisplayLevel> levels_;  // they do not move
-  std::vector<Packet> now_;          // last packet, or base, of each mesh
+  std::optional<SceneLevel> now_;    // from the last base on
   std::size_t packets_ = 0;
 };
 
