@@ -71,6 +71,7 @@ struct VertexState {
   float error = 0;            ///< constant term of its quadric; infinite: locked
   std::uint16_t touches = 0;  ///< changes around it since it was last looked at
   bool regular = false;       ///< each edge has two triangles of opposite direction
+  bool stale = false;         ///< memoryless metric: the faces around it have changed
 };
 
 /// Triangles over flat arrays with the corners of each vertex listed in one pool.
@@ -115,6 +116,10 @@ class Complex {
   }
   /// The live corners of a vertex; forgets its dead ones.
   std::span<const Index> ring(Index vertex);
+  /// The same with dead ones among them, without looking at the triangles.
+  std::span<const Index> ring_with_dead(Index vertex) const {
+    return {pool_.data() + vertices[vertex].ring, vertices[vertex].ring_size};
+  }
   /// Fills spokes and edges; `edges` in order of appearance. Cost O(ring).
   void gather(Index vertex, Star& star);
   /// The same for a regular vertex, faster: no lists of the spokes on an edge.

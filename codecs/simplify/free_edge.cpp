@@ -40,6 +40,11 @@ float rounded_down(float error) {
 struct alignas(64) Surroundings {
   Quadric planes;
   Vec3f area;
+
+  void add(const QuadricBuilder::Face& face) {
+    planes.add_plane(face.normal, face.area);
+    area = area + face.normal * face.area;
+  }
 };
 
 class EdgeSimplifier {
@@ -83,10 +88,18 @@ class EdgeSimplifier {
   bool has_line_terms(Index v) const {
     return wedges_ || !input_.group.empty() || !complex_.states[v].regular;
   }
+  // Whether the edge from v to x is priced with v, as a collapse of v onto x. Where it makes no
+  // difference which end goes, it is priced with one of them: half the work.
+  bool owns(Index v, Index x) const {
+    if (!free_ || wedges_) return true;
+    return is_large(v) != is_large(x) ? is_large(x) : v < x;
+  }
   void gather(Index v, Star& star);
   void survey(Index v, const Star& star);
   void survey(Index v);
-  float evaluate(const Star& star);
+  void evaluate(const Star& star);
+  void evaluate_all(const Star& star);
+  float least_owned(const Star& star) const;
   void price(const Star& star, StarEdge& edge, float live_weight);
   Sum sum_of(const Star& star, const StarEdge& edge) const;
   float history_error(Index q, Index p, Vec3f place) const;
@@ -94,7 +107,7 @@ class EdgeSimplifier {
   void collapse(Index q, const StarEdge& edge);
   void join_quadrics(Index q, Index p, Vec3f place, float wedge_constant);
   void note_collapse(Index q, Index p, std::size_t first_move);
-  void look_around(Index p, bool has_moved);
+  void look_around(Index p, bool has_moved, bool becomes_large);
   void lower_key(Index x, float key);
   void set_key(Index x, float key);
   std::array<double, 3> input_position(Index v) const {
@@ -176,38 +189,54 @@ void EdgeSimplifier::fill_heap() {
   for (Index v = 0; v < keys.size(); ++v) {
     if (complex_.is_locked(v)) continue;
     gather(v, star_);
-    keys[v] = evaluate(star_);
+    evaluate(star_);
+    keys[v] = least_owned(star_);
     complex_.vertices[v].key = keys[v];
   }
   heap_.emplace(keys);
 }
 
 void EdgeSimplifier::survey(Index v, const Star& star) {
-  Surroundings& around = around_[v];
-  around = {};
-  for (const Spoke& spoke : star.spokes) {
-    const QuadricBuilder::Face& face = builder_->face(spoke.corner / 4);
-    around.planes.add_plane(face.normal, face.area);
-    around.area = around.area + face.normal * face.area;
-  }
+  Surroundings around;
+  for (const Spoke& spoke : star.spokes) around.add(builder_->face(spoke.corner / 4));
   if (has_line_terms(v)) builder_->add_edges(star, around.planes);
+  around_[v] = around;
 }
 
 // What faces around a vertex there are, after some have changed.
 void EdgeSimplifier::survey(Index v) {
   if (is_large(v)) return;
-  gather(v, scratch_);
-  survey(v, scratch_);
+  if (has_line_terms(v)) {
+    gather(v, scratch_);
+    survey(v, scratch_);
+    return;
+  }
+  Surroundings around;
+  for (const Index corner : complex_.ring_with_dead(v)) around.add(builder_->face(corner / 4));
+  around_[v] = around;
 }
 
-// Fills costs and places of the star's edges, guards aside; returns the least cost.
-float EdgeSimplifier::evaluate(const Star& star) {
+// Fills costs and places of the star's edges, guards aside; those that it does not own cost
+// infinity.
+void EdgeSimplifier::evaluate(const Star& star) {
+  if (memoryless_)
+    for (const StarEdge& edge : star.edges) __builtin_prefetch(&around_[edge.vertex]);
   const float live_weight = wedges_ ? wedges_->live_weight(star) : 0;
-  float least = kInfinity;
   for (StarEdge& edge : star.edges) {
-    price(star, edge, live_weight);
-    least = std::min(least, edge.cost);
+    edge.cost = kInfinity;
+    if (owns(star.vertex, edge.vertex)) price(star, edge, live_weight);
   }
+}
+
+void EdgeSimplifier::evaluate_all(const Star& star) {
+  const float live_weight = wedges_ ? wedges_->live_weight(star) : 0;
+  for (StarEdge& edge : star.edges) price(star, edge, live_weight);
+}
+
+float EdgeSimplifier::least_owned(const Star& star) const {
+  float least = kInfinity;
+  for (const StarEdge& edge : star.edges)
+    if (owns(star.vertex, edge.vertex)) least = std::min(least, edge.cost);
   return least;
 }
 
@@ -225,9 +254,11 @@ EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edg
     return sum;
   }
   const Surroundings &mine = around_[q], &its = around_[p];
+  const Vec3f slope = its.planes.times(offset);
   sum.quadric = mine.planes;
-  sum.quadric.add(its.planes, offset);
-  sum.constant = its.planes.at(offset * -1);
+  sum.quadric.add_matrix(its.planes);
+  sum.quadric.b = slope * -1;  // all planes pass through their vertex
+  sum.constant = dot(slope, offset);
   sum.volume = {mine.area + its.area, dot(its.area, offset)};
   for (const Spoke& spoke : star.spokes) {
     if (spoke.next != p && spoke.previous != p) continue;
@@ -300,8 +331,7 @@ const StarEdge* EdgeSimplifier::choose(Index q, float limit) {
           (edge.cost == best->cost && edge.vertex < best->vertex))
         best = &edge;
     if (!best || best->cost == kInfinity) {
-      heap_->remove(q);
-      complex_.vertices[q].key = kInfinity;
+      set_key(q, kInfinity);
       return nullptr;
     }
     if (best->cost > limit) {
@@ -336,6 +366,7 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
   for (const Spoke& spoke : star_.spokes) {
     if (spoke.next == p || spoke.previous == p) {
       complex_.kill(spoke.corner);
+      builder_->remove(spoke.corner / 4);
       --out_.triangles_left;
     } else {
       complex_.corner_vertex[spoke.corner] = p;
@@ -354,7 +385,8 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
     attribute_quadrics_[q].b = attribute_quadrics_[q].b + (from.b - linear);
   join_quadrics(q, p, place, wedge_cost.constant);
   complex_.append(p, moved_corners_);
-  if (complex_.vertices[p].ring_size > kLargeRing) large_[p] = 1;
+  const bool becomes_large = !is_large(p) && complex_.vertices[p].ring_size > kLargeRing;
+  if (becomes_large) large_[p] = 1;
   complex_.vertices[q].ring_size = 0;
   heap_->remove(q);
   count(out_.forced, edge.refused);
@@ -363,12 +395,13 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
     for (const StarEdge& other : star_.edges) complex_.states[other.vertex].regular = false;
   }
   complex_.states[p].regular &= complex_.states[q].regular;
+  complex_.vertices[q].key = kInfinity;
   if (has_moved) {
     complex_.points[p].position = complex_.points[p].position + shift;
     moved_[p] = 1;
   }
   note_collapse(q, p, first_move);
-  look_around(p, has_moved);
+  look_around(p, has_moved, becomes_large);
 }
 
 // The constant terms grow by what the moves cost; what other values of attributes cost is in the
@@ -402,13 +435,14 @@ void EdgeSimplifier::note_collapse(Index q, Index p, std::size_t first_move) {
 
 // After a collapse onto p: what the faces around it and its neighbours are, and what their edges
 // cost now. Those that a neighbour had before are priced again when it comes up.
-void EdgeSimplifier::look_around(Index p, bool has_moved) {
+void EdgeSimplifier::look_around(Index p, bool has_moved, bool becomes_large) {
   if (memoryless_) {
     const auto changed = has_moved ? complex_.ring(p) : std::span<const Index>(moved_corners_);
     for (const Index corner : changed) builder_->update(corner / 4);
   }
+  if (becomes_large) gather(p, kept_star_);  // all of its edges change owners
   if (is_large(p)) {
-    for (const StarEdge& edge : star_.edges) {
+    for (const StarEdge& edge : becomes_large ? kept_star_.edges : star_.edges) {
       const Index x = edge.vertex;
       if (x == p || complex_.is_locked(x)) continue;
       if (memoryless_) survey(x);
@@ -421,34 +455,36 @@ void EdgeSimplifier::look_around(Index p, bool has_moved) {
   gather(p, kept_star_);
   if (memoryless_) {
     survey(p, kept_star_);
+    for (const StarEdge& edge : kept_star_.edges) complex_.prefetch_ring(edge.vertex);
     for (const StarEdge& edge : kept_star_.edges) survey(edge.vertex);
   }
-  const float least = evaluate(kept_star_);
-  if (least < kInfinity && heap_->contains(p)) {
-    set_key(p, least);
-  } else if (heap_->contains(p)) {
-    heap_->remove(p);
-    complex_.vertices[p].key = kInfinity;
-  }
+  evaluate_all(kept_star_);
+  set_key(p, least_owned(kept_star_));
   for (const StarEdge& edge : kept_star_.edges) {
-    if (complex_.is_locked(edge.vertex)) continue;
-    float bound = edge.error;
-    if (!free_ && memoryless_ && !is_large(edge.vertex))
-      bound = around_[edge.vertex].planes.at(complex_.offset(edge.vertex, p));
-    lower_key(edge.vertex, bound);
+    const Index x = edge.vertex;
+    if (complex_.is_locked(x) || edge.cost == kInfinity || !owns(x, p)) continue;
+    float bound = owns(p, x) ? edge.error : edge.cost;
+    if (!free_ && memoryless_ && !is_large(x)) bound = around_[x].planes.at(complex_.offset(x, p));
+    lower_key(x, bound);
   }
 }
 
 // A new edge of x costs this, about.
 void EdgeSimplifier::lower_key(Index x, float key) {
-  if (complex_.vertices[x].key == kInfinity) return;  // left the heap
   key = std::max(key, 0.f);
   if (key < complex_.vertices[x].key) set_key(x, key);
 }
 
+// Infinity takes a vertex out of the heap until it gets an edge that may collapse.
 void EdgeSimplifier::set_key(Index x, float key) {
   complex_.vertices[x].key = key;
-  heap_->update(x, key);
+  if (!heap_->contains(x)) {
+    if (key < kInfinity) heap_->insert(x, key);
+  } else if (key < kInfinity) {
+    heap_->update(x, key);
+  } else {
+    heap_->remove(x);
+  }
 }
 
 }  // namespace

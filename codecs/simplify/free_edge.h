@@ -4,9 +4,9 @@
 
 namespace pstrip {
 
-/// simplify() with free placement or the memoryless metric. A vertex stands in the heap once, under
-/// the cost that its cheapest collapse had when it was last looked at; it is looked at again when
-/// it comes up.
+/// simplify() with free placement, or with the memoryless metric, in general. A vertex stands in
+/// the heap once, under the cost that its cheapest collapse had when it was last looked at; it is
+/// looked at again when it comes up.
 CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOptions& options,
                                 const Progress& progress);
 

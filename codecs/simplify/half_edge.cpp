@@ -1,9 +1,7 @@
 // Quadric-ordered half-edge collapses on any triangle complex.
 //
 // [Garland97] the quadric error metric, [Hoppe99] its wedge attributes, [Kim04 §5] its use as the
-// order of strip-edge collapses. A vertex stands in the heap once, under a lower bound of its
-// cheapest collapse: errors only grow, so the bound is checked when the vertex comes up, and only
-// edges that a collapse creates are looked at at once.
+// order of strip-edge collapses; [Lindstrom98] the metric without a history.
 #include "codecs/simplify/half_edge.h"
 
 #include <algorithm>
@@ -48,6 +46,7 @@ class HalfEdgeSimplifier {
   HalfEdgeSimplifier(const SimplifyInput& input, const SimplifyOptions& options)
       : input_(input),
         options_(options),
+        memoryless_(options.metric == Metric::memoryless),
         complex_(input.positions, input.wedge_vertex, input.triangles) {
     if (!input.wedge_vertex.empty() || input.attribute_count > 0)
       wedges_.emplace(input, complex_.diagonal);
@@ -63,6 +62,8 @@ class HalfEdgeSimplifier {
 
  private:
   void fill_heap();
+  bool is_on_line() const;
+  void refresh(Index q);
   float evaluate(Index q);
   // A vertex that is to move, copied so that the compiler can keep it in registers.
   struct Mover {
@@ -93,9 +94,11 @@ class HalfEdgeSimplifier {
 
   const SimplifyInput& input_;
   const SimplifyOptions& options_;
+  const bool memoryless_;
   Complex complex_;
   Guards guards_{complex_};
   std::optional<WedgeTable> wedges_;  // none when each vertex has one wedge and no attributes
+  std::optional<QuadricBuilder> builder_;
   std::optional<VertexHeap> heap_;
   float most_error_ = kInfinity;  // squared, in the complex's units
   bool has_extras_ = false;       // prices need more than quadrics
@@ -139,25 +142,56 @@ void HalfEdgeSimplifier::gather(Index q) {
   else
     complex_.gather(q, star_);
   // A ring that was large may not be any more.
-  if (complex_.vertices[q].ring_size <= kLargeRing)
+  if (complex_.vertices[q].ring_size > kLargeRing) return;
+  if (memoryless_)
+    refresh(q);
+  else
     complex_.points[q].error = complex_.states[q].error;
 }
 
+// Replaces the history of q by what is around it now.
+void HalfEdgeSimplifier::refresh(Index q) {
+  VertexState& state = complex_.states[q];
+  if (!state.stale) return;
+  state.stale = false;
+  Quadric sum;
+  for (const Spoke& spoke : star_.spokes) {
+    const Vec3f n = cross(complex_.offset(q, spoke.next), complex_.offset(q, spoke.previous));
+    const float length = std::sqrt(dot(n, n));
+    if (length > 0) sum.add_plane(n * (1 / length), length / 2);
+  }
+  if (!state.regular) {
+    for (const Spoke& spoke : star_.spokes) builder_->update(spoke.corner / 4);
+    builder_->add_edges(star_, sum);
+  }
+  complex_.vertices[q].quadric = sum;
+}
+
+// Whether edges of the star count besides its faces.
+bool HalfEdgeSimplifier::is_on_line() const {
+  const auto group = [&](const Spoke& s) { return input_.group[s.corner / 4]; };
+  if (star_.open_edges > 0 ||
+      std::ranges::any_of(star_.edges, [](const StarEdge& e) { return e.outgoing != 1; }))
+    return true;
+  return memoryless_ && !input_.group.empty() &&
+         std::ranges::any_of(star_.spokes,
+                             [&](const Spoke& s) { return group(s) != group(star_.spokes[0]); });
+}
+
 void HalfEdgeSimplifier::fill_heap() {
-  QuadricBuilder builder(complex_, input_, wedges_ ? &*wedges_ : nullptr);
+  builder_.emplace(complex_, input_, wedges_ ? &*wedges_ : nullptr);
   std::vector<float> keys(complex_.vertex_count(), kInfinity);
   for (Index v = 0; v < keys.size(); ++v) {
     VertexRecord& record = complex_.vertices[v];
     complex_.gather(v, star_);
-    complex_.states[v].regular =
-        star_.open_edges == 0 &&
-        std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
-    builder.add_edges(star_);
+    complex_.states[v].regular = !is_on_line();
+    builder_->add_edges(star_);
     // No vertex has an error yet, so the other ends need not be complete.
     if (!complex_.is_locked(v)) keys[v] = evaluate(v);
     record.key = keys[v];
   }
   heap_.emplace(keys);
+  if (!memoryless_) builder_.reset();
 }
 
 // Fills the costs of the star's edges, guards aside; returns the least.
@@ -188,7 +222,8 @@ HalfEdgeSimplifier::Mover HalfEdgeSimplifier::mover_of(Index q) const {
   const VertexRecord& record = complex_.vertices[q];
   const VertexPoint& point = complex_.points[q];
   // The states are another cache line, and differ in large rings only.
-  const float error = record.ring_size > kLargeRing ? complex_.states[q].error : point.error;
+  const float error =
+      record.ring_size > kLargeRing && !memoryless_ ? complex_.states[q].error : point.error;
   return {record.quadric, point.position, error};
 }
 
@@ -215,7 +250,9 @@ inline void HalfEdgeSimplifier::price(const Mover& mover, StarEdge& edge) {
 void HalfEdgeSimplifier::price_extras(const Mover& mover, StarEdge& edge) {
   if (wedges_) price_wedges(complex_.points[edge.vertex].position - mover.position, edge);
   const float weight = mover.quadric.weight + complex_.vertices[edge.vertex].quadric.weight;
-  if (edge.error + complex_.states[edge.vertex].error > most_error_ * weight) edge.cost = kInfinity;
+  const float before = memoryless_ ? complex_.states[star_.vertex].error : 0;
+  if (before + edge.error + complex_.states[edge.vertex].error > most_error_ * weight)
+    edge.cost = kInfinity;
 }
 
 void HalfEdgeSimplifier::price_wedges(Vec3f offset, StarEdge& edge) {
@@ -244,11 +281,12 @@ StarEdge* HalfEdgeSimplifier::next_edge(Index q, float limit) {
     return nullptr;
   }
   const Index best = record.best;
+  const bool was_stale = complex_.states[q].stale;
   complex_.prefetch_ring(best);
   gather(q);
   for (const StarEdge& edge : star_.edges) complex_.prefetch_record(edge.vertex);
   complex_.prefetch_triangles(best);
-  if (cost <= record.others) {
+  if (cost <= record.others && !was_stale) {
     const auto edge = std::ranges::find(star_.edges, best, &StarEdge::vertex);
     if (edge != star_.edges.end()) {
       price(mover_of(q), *edge);
@@ -337,7 +375,10 @@ void HalfEdgeSimplifier::collapse(Index q, const StarEdge& edge) {
   to.quadric.add(from.quadric, offset * -1);
   VertexState& state = complex_.states[p];
   state.error += edge.error;
-  complex_.points[p].error = to.ring_size > kLargeRing ? rounded_down(state.error) : state.error;
+  if (memoryless_)
+    state.error += complex_.states[q].error;
+  else
+    complex_.points[p].error = to.ring_size > kLargeRing ? rounded_down(state.error) : state.error;
   const float weight = to.quadric.weight;
   const float mean = weight > 0 ? std::sqrt(state.error / weight) : 0;
   const double error = mean / complex_.scale[0] / complex_.scale[1];
@@ -350,6 +391,8 @@ void HalfEdgeSimplifier::collapse(Index q, const StarEdge& edge) {
     for (const StarEdge& other : star_.edges) complex_.states[other.vertex].regular = false;
   }
   state.regular &= complex_.states[q].regular;
+  if (memoryless_)
+    for (const StarEdge& other : star_.edges) complex_.states[other.vertex].stale = true;
   for (const StarEdge& other : star_.edges)
     if (other.vertex != p) touch(other.vertex, q, p);
   renew(p);

@@ -30,6 +30,8 @@ class QuadricBuilder {
   };
   const Face& face(Index triangle) const { return faces_[triangle]; }
   void update(Index triangle);
+  /// A triangle that is gone has no area.
+  void remove(Index triangle) { faces_[triangle] = {}; }
 
  private:
   void add_face(Index triangle);

@@ -53,13 +53,18 @@ struct Quadric {
     b.x += a.x, b.y += a.y, b.z += a.z;
   }
 
+  /// Adds the quadratic terms and the weight of another.
+  void add_matrix(const Quadric& other) {
+    xx += other.xx, yy += other.yy, zz += other.zz;
+    xy += other.xy, xz += other.xz, yz += other.yz;
+    weight += other.weight;
+  }
+
   /// Adds one whose owner stands at `offset` from this one's. The constant term of the sum grows by
   /// other.at(-offset).
   void add(const Quadric& other, Vec3f offset) {
     const Vec3f a = other.times(offset);
-    xx += other.xx, yy += other.yy, zz += other.zz;
-    xy += other.xy, xz += other.xz, yz += other.yz;
-    weight += other.weight;
+    add_matrix(other);
     b.x += other.b.x - a.x, b.y += other.b.y - a.y, b.z += other.b.z - a.z;
   }
 };

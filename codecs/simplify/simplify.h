@@ -78,7 +78,7 @@ struct CollapseSequence {
   std::uint64_t triangles_left = 0;
   SimplifyStop stop = SimplifyStop::target;
   /// With free placement: where the kept vertex of each collapse stands afterwards, 3 a collapse.
-  /// Within the bounding box; the very coordinates it had where it does not move.
+  /// Finite; the very coordinates it had where it has not moved yet.
   std::vector<double> placements;
   GuardCounts refused;  ///< collapses that were put off, counted each time they come up
   GuardCounts forced;   ///< taken nevertheless, since everything cheaper was used up
@@ -95,19 +95,19 @@ struct CollapseSequence {
 ///
 /// With free placement the kept vertex moves to where the metric is least, and its wedges keep
 /// their attributes. The memoryless metric looks at the faces there are, keeps the volume under
-/// them when vertices may move, and comes nearer to the source at several times the cost of `qem`;
-/// attributes are still judged by the source's.
+/// them when vertices may move, and comes nearer to the source; attributes are still judged by the
+/// source's.
 ///
 /// progress  may be empty; asked every few thousand collapses
 /// returns   the whole sequence; same input, same sequence
-/// cost      O(n log n); about 1 µs a collapse (subset, qem) to 5 µs (free, memoryless); 200 to 400
-///           bytes a triangle at work
+/// cost      O(n log n); about 1 µs a collapse (subset; with wedges and the memoryless metric three
+///           times that) to 4 µs (free, memoryless); 200 to 300 bytes a triangle at work
 /// source    [Garland97 §3-5; Lindstrom98 §3; Lindstrom99; Hoppe99 §3 attribute quadrics;
 ///           Kim04 §5; Skabek11 §2.3]. Differs: quadrics are relative to their vertex, hence exact
 ///           enough in single precision; a vertex stands in the heap once, under a lower bound that
 ///           is checked when it comes up; faces count by their area with both metrics, borders by
-///           planes that stand on them, and each collapse's `error` is by the quadrics of
-///           [Garland97] with both.
+///           planes that stand on them. `error` is an estimate with a history for either metric:
+///           by accumulated quadrics, or where there are none by the sum of each step's squares.
 CollapseSequence simplify(const SimplifyInput& input, const SimplifyOptions& options,
                           const Progress& progress = {});
 

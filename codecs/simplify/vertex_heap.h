@@ -40,6 +40,11 @@ class VertexHeap {
   bool contains(Index vertex) const { return place_[vertex] != kNone; }
   float key(Index vertex) const { return key_of(nodes_[place_[vertex]]); }
 
+  /// Precondition: not contains(vertex), finite key.
+  void insert(Index vertex, float key) {
+    nodes_.push_back(0);
+    rise(size() - 1, node(vertex, key));
+  }
   /// Precondition: contains(vertex).
   void update(Index vertex, float key) {
     const Index i = place_[vertex];

@@ -38,9 +38,15 @@ TEST(VertexHeap, AgreesWithAnOrderedSet) {
     ASSERT_EQ(heap.top(), set.begin()->second);
     ASSERT_EQ(heap.second_key(), set.size() > 1 ? std::next(set.begin())->first : kInfinity);
     const Index v = static_cast<Index>(random() % keys.size());
-    if (!heap.contains(v)) continue;
+    if (!heap.contains(v)) {
+      if (random() % 2 == 0) continue;
+      keys[v] = key();
+      heap.insert(v, keys[v]);
+      set.emplace(keys[v], v);
+      continue;
+    }
     set.erase({keys[v], v});
-    if (random() % 3 == 0) {
+    if (random() % 3 != 0) {
       heap.remove(v);
     } else {
       keys[v] = key();
