@@ -48,14 +48,25 @@ std::string_view reason_of(SimplifyStop stop) {
   return "interrupted";
 }
 
-void report_simplification(const Streams& io, const std::vector<SimplifyReport>& meshes) {
+// All of it when asked for, else only of meshes that came out larger than wanted.
+void report_simplification(const Streams& io, const std::vector<SimplifyReport>& meshes,
+                           bool verbose) {
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const SimplifyReport& r = meshes[m];
+    if (!verbose && (io.quiet || r.stop != SimplifyStop::exhausted)) continue;
     io.err << fmt::format("mesh {} \"{}\": {} -> {} triangles, {}\n", m, escaped(r.mesh),
                           grouped(r.triangles), grouped(r.base_triangles), reason_of(r.stop));
     io.err << fmt::format("  collapses put off: {}\n", guards_of(r.refused));
     io.err << fmt::format("  taken nevertheless: {}\n", guards_of(r.forced));
   }
+}
+
+// What is unusual about the model.
+void report_survey(const Streams& io, const Options& options, const Model& model) {
+  if (io.quiet || options.output == "-") return;
+  Survey all;
+  for (const Mesh& mesh : model.meshes) all += survey(mesh);
+  print_survey(io.err, all, true);
 }
 
 // Strips to strips keeps the records; anything else goes through the mesh.
@@ -94,6 +105,7 @@ ExitCode run(const Options& options, const Streams& io) {
       keep_attributes(model, options.attributes == "none" ? std::vector<std::string>()
                                                           : split_list(options.attributes));
     if (is_progressive(*target)) {
+      report_survey(io, options, model);
       auto strips = encode(model, *encode_options, bar.callback(), &simplified);
       if (!strips) return complain(io, strips.error(), options.input);
       options.encode.stripping.note_time_limit(io);
@@ -105,7 +117,8 @@ ExitCode run(const Options& options, const Streams& io) {
   }
   if (!saved) return complain(io, saved.error(), options.output);
   report(io, options, *file, *saved);
-  if (options.verbose) report_simplification(io, simplified);
+  if (options.verbose || options.output != "-")
+    report_simplification(io, simplified, options.verbose);
   return kOk;
 }
 

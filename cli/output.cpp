@@ -142,6 +142,17 @@ void Table::print(std::ostream& out) const {
   }
 }
 
+void print_survey(std::ostream& out, const Survey& survey, bool with_treatment) {
+  for (const SurveyKind& kind : survey_kinds()) {
+    const std::uint64_t count = survey.*kind.count;
+    if (count <= (kind.count == &Survey::components ? 1u : 0u)) continue;
+    const std::string line = with_treatment ? fmt::format("{:>13}  {:<26}  {}", grouped(count),
+                                                          kind.name, kind.treatment)
+                                            : fmt::format("{:>13}  {}", grouped(count), kind.name);
+    out << line << "\n";
+  }
+}
+
 std::string grouped(std::uint64_t value) {
   std::string out = std::to_string(value);
   for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(out.size()) - 3; at > 0; at -= 3)
