@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "cli/heap.h"
 #include "codecs/stripify/check.h"
@@ -62,6 +63,19 @@ std::string find_point_fault(std::span<const double> positions, const Strips& st
                           strips);
 }
 
+class Stopwatch {
+ public:
+  void add_to(StripFigures& figures) const {
+    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - wall_;
+    figures.milliseconds += time.count();
+    figures.cpu_milliseconds += 1e3 * static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
 void add(StripStats& sum, const StripStats& stats) {
   const double misses = sum.acmr16 * static_cast<double>(sum.triangles) +
                         stats.acmr16 * static_cast<double>(stats.triangles);
@@ -81,10 +95,9 @@ StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
   StripFigures out;
   for (Mesh& mesh : model.meshes) {
     const HeapPeak heap;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const StripMap map = strip_faces(mesh, stripifier, options);
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    out.milliseconds += time.count();
+    stopwatch.add_to(out);
     out.peak_bytes = std::max(out.peak_bytes, heap.bytes());
     add(out.stats, strip_stats(map.entries));
     // With diagonals of its own the strips have other triangles than the triangulation.
@@ -101,10 +114,9 @@ StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stri
   for (Mesh& mesh : model.meshes) {
     const std::vector<double> positions = wedge_positions(mesh);
     const HeapPeak heap;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     StripMap map{.entries = stripifier.run(positions, options), .group_entries = {}};
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    out.milliseconds += time.count();
+    stopwatch.add_to(out);
     out.peak_bytes = std::max(out.peak_bytes, heap.bytes());
     add(out.stats, strip_stats(map.entries));
     if (out.remark.empty()) out.remark = find_point_fault(positions, map.entries, options);

@@ -13,8 +13,9 @@ namespace pstrip::cli {
 struct StripFigures {
   StripStats stats;
   double milliseconds = 0;
-  std::size_t peak_bytes = 0;  ///< largest heap of any one mesh's run, its result included
-  std::string remark;          ///< what the strips miss of a stripification; empty: nothing
+  double cpu_milliseconds = 0;  ///< processor time: what else the machine does counts little
+  std::size_t peak_bytes = 0;   ///< largest heap of any one mesh's run, its result included
+  std::string remark;           ///< what the strips miss of a stripification; empty: nothing
 
   double indices_per_triangle() const {
     return stats.triangles == 0

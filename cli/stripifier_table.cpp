@@ -94,6 +94,7 @@ StripFigures measure(Model& model, const Run& run, double time_limit) {
     const StripFigures again = measure_once(model, run, time_limit);
     spent += again.milliseconds;
     best.milliseconds = std::min(best.milliseconds, again.milliseconds);
+    best.cpu_milliseconds = std::min(best.cpu_milliseconds, again.cpu_milliseconds);
   }
   return best;
 }
@@ -186,6 +187,7 @@ Json json_of_comparison(const Comparison& c) {
                     {"acmr16", f.stats.acmr16},
                     {"peak_bytes", f.peak_bytes},
                     {"milliseconds", f.milliseconds},
+                    {"cpu_milliseconds", f.cpu_milliseconds},
                     {"remark", f.remark}});
   }
   return {{"file", escaped(c.file)},

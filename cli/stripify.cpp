@@ -88,6 +88,7 @@ void print_json(std::ostream& out, const StripFigures& f, const Error* error,
   json["indices_sent"] = s.indices_sent;
   json["acmr16"] = s.acmr16;
   json["milliseconds"] = f.milliseconds;
+  json["cpu_milliseconds"] = f.cpu_milliseconds;
   out << json.dump(2) << "\n";
 }
 
