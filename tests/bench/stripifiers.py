@@ -33,7 +33,7 @@ DIFFERENT = 1.25  # beyond it the page says why
 
 CSV_COLUMNS = ["section", "model", "algorithm", "variant", "triangles", "strips", "singletons",
                "swaps", "entries", "indices_sent", "indices_per_triangle", "acmr16", "peak_bytes",
-               "milliseconds", "remark"]
+               "milliseconds", "cpu_milliseconds", "remark"]
 
 
 def table(header, rows, text_columns=1):
@@ -158,12 +158,12 @@ def real_model_rows(rows, published):
         yield [label, name_of(row), f"{strips:,}", f"{row['strips']:,}",
                f"{row['strips'] / strips:.2f}", f"{vertices}K", f"{row['entries'] / 1000:.1f}K",
                f"{acmr:.2f}", f"{row['acmr16']:.2f}", f"{seconds * 1000:.0f}",
-               f"{row['milliseconds']:.1f}", reason if far else ""]
+               f"{row['cpu_milliseconds']:.1f}", reason if far else ""]
     for row in rows:
         if row["algorithm"] == "best":
             yield ["", name_of(row), "", f"{row['strips']:,}", "", "",
                    f"{row['entries'] / 1000:.1f}K", "", f"{row['acmr16']:.2f}", "",
-                   f"{row['milliseconds']:.1f}", ""]
+                   f"{row['cpu_milliseconds']:.1f}", ""]
 
 
 def strip_rows(columns, published):
@@ -223,7 +223,7 @@ def figure_row(row):
     per_triangle = row["peak_bytes"] / max(1, row["triangles"])
     return [name_of(row), f"{row['strips']:,}", f"{row['swaps']:,}",
             f"{row['indices_per_triangle']:.3f}", f"{row['acmr16']:.3f}", f"{per_triangle:.0f}",
-            f"{row['milliseconds']:.1f}"]
+            f"{row['cpu_milliseconds']:.1f}"]
 
 
 FIGURE_HEADER = ["algorithm", "strips", "swaps", "indices / T", "ACMR 16", "bytes / T", "ms"]
@@ -245,9 +245,9 @@ def bar_row(model, goal, effort, row, peer):
     figure = row["strips"] if goal == "strips" else round(row["indices_per_triangle"], 4)
     bar = BARS.get((goal, effort), {}).get(model)
     reached = "" if bar is None else "yes" if figure <= bar else "NO"
-    of_peer = row["milliseconds"] / peer["milliseconds"] if peer else math.nan
+    of_peer = row["cpu_milliseconds"] / peer["cpu_milliseconds"] if peer else math.nan
     return [model, goal, effort, f"{row['strips']:,}", f"{row['indices_per_triangle']:.4f}",
-            "" if bar is None else bar, reached, f"{row['milliseconds']:.1f}", f"{of_peer:.2f}"]
+            "" if bar is None else bar, reached, f"{row['cpu_milliseconds']:.1f}", f"{of_peer:.2f}"]
 
 
 def every_model(bench, models):
@@ -266,8 +266,9 @@ def every_model(bench, models):
         for goal, effort, row in best_runs(bench, model, path, rows):
             bar_rows.append(bar_row(model, goal, effort, row, peer))
         if ("OpenMesh", "") in found:
-            ratio = found["sgi-vertices", ""]["milliseconds"] / found["OpenMesh", ""]["milliseconds"]
-            speeds.append(f"{model} {ratio:.2f}")
+            ours, peers = (found[name, ""]["cpu_milliseconds"] for name in ("sgi-vertices",
+                                                                           "OpenMesh"))
+            speeds.append(f"{model} {ours / peers:.2f}")
     bench.write(remarks(kept))
     bench.write("### best, beside its bars\n\nBars are for strips or for indices a triangle, as is "
                 f"the goal. At fast, indices should take at most {FAST_TIME_BAR} of meshoptimizer's "
@@ -299,7 +300,7 @@ def both_goals(bench, models):
     bench.write(f"reached by {', '.join(reached)}.\n\n" if reached else "NOT reached.\n\n")
     bench.write(table(["best", "effort", "strips", "indices / T", "ms"],
                       [[name, effort, f"{row['strips']:,}", f"{row['indices_per_triangle']:.4f}",
-                        f"{row['milliseconds']:.0f}"]
+                        f"{row['cpu_milliseconds']:.0f}"]
                        for effort, runs in curves.items() for name, row in runs], 2))
     bench.write("![strips and indices a triangle](both.svg)\n\n")
     draw_both(bench.output / "both.svg", curves, others)
@@ -371,11 +372,12 @@ def scaling(bench):
     counts = [rows[0]["triangles"] for rows in sizes]
     series = list(zip(*sizes))  # pstrips lists the same runs for every model
     bench.write("## Scaling\n\nMicroseconds a triangle on square grids, a quarter of whose diagonals "
-                "lie the other way. *growth* is the exponent from the first size to the last: 1 is "
-                "linear, n log n about 1.1;\nthat the largest does not fit the processor's caches "
-                f"adds to it. `--time-limit {TIME_LIMIT}`: what it cut is marked with *.\n\n")
+                "lie the other way. *growth* is the exponent from the first size to the last, "
+                "what was cut left out: 1 is linear,\nn log n about 1.1; that the largest does not "
+                f"fit the processor's caches adds to it. `--time-limit {TIME_LIMIT}`, wall-clock: "
+                "what it cut is marked with *.\n\n")
     rows = [[name_of(runs[0]),
-             *(f"{1e3 * run['milliseconds'] / n:.3f}{'*' if is_cut(run) else ' '}"
+             *(f"{1e3 * run['cpu_milliseconds'] / n:.3f}{'*' if is_cut(run) else ' '}"
                for run, n in zip(runs, counts)),
              f"{growth(runs, counts):.2f}"] for runs in series]
     bench.write(table(["algorithm", *(f"{n:,} T" for n in counts), "growth"], rows))
@@ -389,20 +391,23 @@ def is_cut(run):
 
 
 def growth(runs, counts):
-    return math.log(runs[-1]["milliseconds"] / runs[0]["milliseconds"]) / \
-        math.log(counts[-1] / counts[0])
+    """Between the first and the last size that no limit cut."""
+    whole = [(n, run["cpu_milliseconds"]) for n, run in zip(counts, runs) if not is_cut(run)]
+    if len(whole) < 2:
+        return math.nan
+    return math.log(whole[-1][1] / whole[0][1]) / math.log(whole[-1][0] / whole[0][0])
 
 
 def draw_scaling(path, series, counts):
     out = plot.Plot("Time over triangles; dashed: linear; hollow: cut by the time limit",
-                    "triangles", "milliseconds", log_y=True, right=230)
+                    "triangles", "milliseconds of processor time", log_y=True, right=230)
     for microseconds in (0.1, 1, 10):
         out.line([(n, n * microseconds / 1e3) for n in (counts[0], counts[-1])], "#b0b0b0",
                  width=1, dash="4 4")
     colours = colours_of([name_of(runs[0]) for runs in series])
     for runs in series:
         name = name_of(runs[0])
-        places = [(n, run["milliseconds"]) for n, run in zip(counts, runs)]
+        places = [(n, run["cpu_milliseconds"]) for n, run in zip(counts, runs)]
         stands_out = name.startswith("best") or runs[0]["algorithm"] in PEERS
         out.line(places, colours[name], name, width=2.5 if stands_out else 1.2, at_end=True)
         for place, run in zip(places, runs):
@@ -461,9 +466,10 @@ def main():
             bench.section = name
             sections[name]()
         missing = ", ".join(sorted(set(MODELS) - set(models)))
-        head = (f"# Stripifiers compared\n\nTimes are wall-clock on a machine of {os.cpu_count()} "
-                f"processors whose load averages were {load_before} before and {load()} after: look "
-                "at ratios. Counts are the same everywhere.\n"
+        head = (f"# Stripifiers compared\n\nms and µs are processor time, the least of up to "
+                f"five runs, on a machine of {os.cpu_count()} processors whose load averages were "
+                f"{load_before} before and {load()} after: look at ratios.\nCounts are the same "
+                "everywhere.\n"
                 + (f"Left out, for want of the models: {missing}.\n" if missing else "") + "\n")
         (output / "stripifiers.md").write_text(head + "".join(bench.page), encoding="utf-8")
         bench.write_csv()
