@@ -138,6 +138,11 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
       ->check(CLI::IsMember(names))
       ->capture_default_str()
       ->group(kGroup);
+  app.add_option("--level-cost", options.level_cost,
+                 "Indices that a step counts for which tears a strip at coarser levels")
+      ->check(CLI::Range(0u, kMostLevelCost))
+      ->capture_default_str()
+      ->group(kGroup);
   auto* share = app.add_option("--base", base, "Triangles of the base: N, or N% of the model")
                     ->capture_default_str()
                     ->group(kGroup);

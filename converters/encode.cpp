@@ -11,6 +11,7 @@
 #include "codecs/vsplit/faces.h"
 #include "codecs/vsplit/level.h"
 #include "codecs/vsplit/record.h"
+#include "converters/level_cost.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
 #include "formats/pstrip/check.h"
@@ -161,12 +162,8 @@ class Encoder {
   Result<Encoded> encode_mesh(Index m, const CollapseSequence* given) const {
     const Mesh& mesh = model_.meshes[m];
     const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
-    if (!go_on("stripify", m, 0)) return interrupted();
     const Triangulation triangles = triangulate(mesh);
-    const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options);
-    if (strips.entries.size() > kMaxCount)
-      return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
-    if (!go_on("simplify", m, 0.25)) return interrupted();
+    if (!go_on("simplify", m, 0)) return interrupted();
     CollapseSequence chosen;
     if (!given) {
       const bool by_error = options_.base_error.has_value();
@@ -177,7 +174,7 @@ class Encoder {
            .max_error = by_error ? *options_.base_error : -1,
            .placement = options_.placement,
            .metric = options_.metric},
-          [&](std::string_view stage, double done) { return go_on(stage, m, 0.25 + 0.5 * done); });
+          [&](std::string_view stage, double done) { return go_on(stage, m, 0.5 * done); });
       if (chosen.stop == SimplifyStop::interrupted) return interrupted();
       given = &chosen;
       if (reports_)
@@ -188,6 +185,11 @@ class Encoder {
                              .refused = chosen.refused,
                              .forced = chosen.forced});
     }
+    if (!go_on("stripify", m, 0.5)) return interrupted();
+    const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options,
+                                       step_cost_of(mesh, triangles, *given));
+    if (strips.entries.size() > kMaxCount)
+      return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
     if (!go_on("record", m, 0.75)) return interrupted();
     Recording recording = record(mesh, strips, *given, options_.encoding);
     FaceRecord faces = record_faces(mesh, triangles, strips, recording);
@@ -198,6 +200,17 @@ class Encoder {
     add_digest(out.mesh);
     if (options_.keep_order) out.mesh.order = std::move(faces.order);
     return out;
+  }
+
+  std::vector<std::uint8_t> step_cost_of(const Mesh& mesh, const Triangulation& triangles,
+                                         const CollapseSequence& sequence) const {
+    if (options_.level_cost == 0) return {};
+    std::vector<Index> vertices;
+    vertices.reserve(triangles.corners.size());
+    for (const Index wedge : triangles.corners) vertices.push_back(mesh.vertex_of(wedge));
+    return level_step_cost(
+        vertices, mesh.vertex_count(), sequence.collapses,
+        static_cast<std::uint8_t>(std::min(options_.level_cost, kMostLevelCost)));
   }
 
   // Of what a decoder gets before it applies the original order.

@@ -22,10 +22,17 @@ struct AttributeWeight {
   double weight = 0;     ///< from 0 to 1e6
 };
 
+inline constexpr std::uint32_t kMostLevelCost = 100;
+
 struct EncodeOptions {
   MapEncoding encoding = MapEncoding::offset_difference;
   std::string stripifier = "best";  ///< a name of stripifiers()
   StripOptions strip_options{};
+  /// What a step counts for, in indices, that tears its strip at coarser levels; see
+  /// level_step_cost(). Of the stripifiers, `best` looks at it. 1 is free: files get no larger.
+  /// More shortens the strips of coarse levels and lengthens the file; 0 looks at the full mesh
+  /// alone. At most kMostLevelCost.
+  std::uint32_t level_cost = 1;
   double base_share = 0.05;                       ///< of each mesh's triangles that the base keeps
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
   std::optional<double> base_error{};  ///< instead: largest distance estimate, model units

@@ -20,6 +20,7 @@ class GroupFaces {
     global_.clear();
     corners_.clear();
     positions_.clear();
+    step_cost_.clear();
     face_first_.assign(1, 0);
   }
 
@@ -28,11 +29,16 @@ class GroupFaces {
     face_first_.push_back(static_cast<Index>(corners_.size()));
   }
 
+  void add_step_cost(std::span<const std::uint8_t> cost) {
+    step_cost_.insert(step_cost_.end(), cost.begin(), cost.end());
+  }
+
   StripInput triangles() const {
     return {.triangles = corners_,
             .group = {},
             .wedge_count = static_cast<Index>(global_.size()),
-            .positions = positions_};
+            .positions = positions_,
+            .step_cost = step_cost_};
   }
   PolygonInput polygons() const {
     return {.corners = corners_,
@@ -58,6 +64,7 @@ class GroupFaces {
 
   const Mesh& mesh_;
   std::vector<double> vertex_positions_, positions_;
+  std::vector<std::uint8_t> step_cost_;
   std::vector<Index> local_, global_, corners_, face_first_{0};
 };
 
@@ -114,7 +121,8 @@ bool meets_no_vertex_twice(const Mesh& mesh, std::span<const Index> face,
 }  // namespace
 
 StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
-                    const NamedStripifier& stripifier, const StripOptions& options) {
+                    const NamedStripifier& stripifier, const StripOptions& options,
+                    std::span<const std::uint8_t> step_cost) {
   GroupFaces faces(mesh, stripifier.uses_positions);
   const ByGroup by_group =
       sort_by_group(mesh.groups.size(), triangles.face.size(),
@@ -123,6 +131,7 @@ StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
       by_group, faces,
       [&](Index t, GroupFaces& out) {
         out.add(std::span(triangles.corners).subspan(std::size_t{3} * t, 3));
+        if (!step_cost.empty()) out.add_step_cost(step_cost.subspan(std::size_t{3} * t, 3));
       },
       [&](const GroupFaces& group) { return stripifier.run(group.triangles(), options); });
 }

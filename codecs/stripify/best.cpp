@@ -123,7 +123,7 @@ Strips improve(const StripInput& input, const DualGraph& graph, const Links& lin
   StripOptions options = given;
   bool stopped = false;  // by whichever search asked; the ones after it are over at once
   if (given.stop) options.stop = [&] { return stopped = stopped || given.stop(); };
-  LinkedPaths paths(graph, links);
+  LinkedPaths paths(graph, links, input.step_cost);
   anneal(paths, annealing(options));
   if (joins(options)) join(paths, options);
   return emit_strips(input, graph, paths.links());

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codecs/stripify/emit.h"
@@ -20,7 +21,8 @@ class LinkedPaths {
  public:
   using HalfEdge = Index;
 
-  LinkedPaths(const DualGraph& graph, const Links& links);
+  LinkedPaths(const DualGraph& graph, const Links& links,
+              std::span<const std::uint8_t> step_cost = {});
   Links links() const;
 
   Index triangle_count() const { return static_cast<Index>(linked_.size()); }
@@ -55,7 +57,8 @@ class LinkedPaths {
   /// How many swaps a link over h takes part in, whether it is there or not; at most 6.
   int swaps_with(HalfEdge h) const {
     const HalfEdge o = opposite_[h];
-    return swaps_around(h, o) + swaps_around(o, h);
+    const int swaps = swaps_around(h, o) + swaps_around(o, h);
+    return step_cost_.empty() ? swaps : swaps + step_cost_[h];
   }
 
   /// Whether the path that leaves a triangle over its link `exit` comes to t. Follows two paths at
@@ -93,6 +96,7 @@ class LinkedPaths {
   }
 
   std::vector<HalfEdge> opposite_;    // 4 a triangle, the last unused
+  std::vector<std::uint8_t> step_cost_;  // of the edge, 4 a triangle, or empty
   std::vector<std::uint8_t> linked_;  // a bit for each half-edge of a triangle
 };
 

@@ -18,6 +18,9 @@ struct StripInput {
   std::span<const Index> group;      ///< one a triangle; empty: all in group 0
   Index wedge_count = 0;
   std::span<const double> positions = {};  ///< 3 a wedge, all finite, or empty: shape unknown
+  /// What a step over an edge costs beside a swap, in indices, for each half-edge: corner k of
+  /// triangle t to the next is at 3 t + k. Both half-edges of an edge count. Empty: nothing.
+  std::span<const std::uint8_t> step_cost = {};
 };
 
 /// Faces of three and more corners, before their diagonals are chosen; joined as in StripInput.

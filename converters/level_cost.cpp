@@ -1,0 +1,71 @@
+#include "converters/level_cost.h"
+
+#include <array>
+#include <utility>
+
+namespace pstrip {
+namespace {
+
+// Which vertices have become one, and when: sets that are joined by size, so that no vertex is more
+// than log2 n below its root.
+class MergeTimes {
+ public:
+  explicit MergeTimes(Index vertices)
+      : parent_(vertices), joined_(vertices, kNone), size_(vertices, 1) {
+    for (Index v = 0; v < vertices; ++v) parent_[v] = v;
+  }
+
+  void join(Index a, Index b, Index time) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return;
+    if (size_[a] > size_[b]) std::swap(a, b);
+    parent_[a] = b;
+    joined_[a] = time;
+    size_[b] += size_[a];
+  }
+
+  // When a and b became one; kNone: never. The times rise on the way to the root.
+  Index time(Index a, Index b) const {
+    Index last = 0;
+    while (a != b) {
+      if (joined_[a] > joined_[b]) std::swap(a, b);
+      last = joined_[a];
+      if (last == kNone) return kNone;
+      a = parent_[a];
+    }
+    return last;
+  }
+
+ private:
+  Index root(Index v) const {
+    while (parent_[v] != v) v = parent_[v];
+    return v;
+  }
+
+  std::vector<Index> parent_, joined_, size_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> level_step_cost(std::span<const Index> triangles, Index vertex_count,
+                                          std::span<const Collapse> collapses, std::uint8_t cost) {
+  MergeTimes merged(vertex_count);
+  for (Index i = 0; i < collapses.size(); ++i)
+    merged.join(collapses[i].removed, collapses[i].kept, i);
+  std::vector<std::uint8_t> out(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    Index first = kNone;
+    std::size_t vanishing = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index time = merged.time(triangles[t + k], triangles[t + (k + 1) % 3]);
+      if (time >= first) continue;
+      first = time;
+      vanishing = k;
+    }
+    if (first != kNone) out[t + vanishing] = cost;
+  }
+  return out;
+}
+
+}  // namespace pstrip
