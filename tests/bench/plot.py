@@ -6,7 +6,7 @@ import math
 WIDTH, HEIGHT = 1000, 680
 LEFT, TOP, BOTTOM = 80, 50, 60
 LABEL_HEIGHT = 14
-CHARACTER = 6.2  # width at 11 px, on average
+CHARACTER = 6.6  # width at 11 px, on average
 
 COLOURS = ["#1f77b4", "#ff7f0e", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17becf", "#bcbd22",
            "#4d4d4d", "#6b8e23"]
@@ -119,7 +119,7 @@ class Plot:
         return out
 
     def _drawn_points(self):
-        out, taken = [], []
+        out, taken = [], [box for line in self.lines for box in self._boxes_along(line[0])]
         for x, y, colour, _, radius, hollow in self.points:
             at = self.x.at(x), self.y.at(y)
             taken.append((at[0] - radius, at[1] - radius, at[0] + radius, at[1] + radius))
@@ -129,6 +129,15 @@ class Plot:
             if label:
                 out += self._label(self.x.at(x), self.y.at(y), radius, label, colour, taken)
         return out
+
+    def _boxes_along(self, places):
+        """Small ones, close enough together that no label fits on the line."""
+        ats = [(self.x.at(x), self.y.at(y)) for x, y in places]
+        for (x1, y1), (x2, y2) in zip(ats, ats[1:]):
+            steps = math.ceil(math.hypot(x2 - x1, y2 - y1) / 6)
+            for i in range(1, steps):
+                x, y = x1 + (x2 - x1) * i / steps, y1 + (y2 - y1) * i / steps
+                yield x - 1, y - 1, x + 1, y + 1
 
     def _label(self, x, y, radius, label, colour, taken):
         """At the nearest free place around the point, with a line to it when that is far."""

@@ -316,11 +316,13 @@ def draw_both(path, curves, others):
             shown = f"best, {effort}, {name}" if i in (0, len(runs) - 1) else name.split()[-1]
             out.point(*place, colour, shown, radius=3)
     out.point(*BOTH_BAR, "#000000", "bar", radius=5, hollow=True)
-    colours = colours_of([name_of(row) for row in others])
+    names = {}  # variants that make the same strips are one point
     for row in others:
-        is_peer = row["algorithm"] in PEERS
-        out.point(row["strips"], row["indices_per_triangle"], colours[name_of(row)], name_of(row),
-                  radius=5 if is_peer else 4)
+        place = row["algorithm"], row["strips"], row["indices_per_triangle"]
+        names[place] = row["algorithm"] if place in names else name_of(row)
+    colours = colours_of(names.values())
+    for (algorithm, strips, indices), name in names.items():
+        out.point(strips, indices, colours[name], name, radius=5 if algorithm in PEERS else 4)
     out.write(path)
 
 
