@@ -174,7 +174,8 @@ def strip_rows(columns, published):
                  for theirs, ours in zip(published, found)]
         far = any(theirs is not None and differs(ours, theirs) for theirs, ours in pairs)
         cells = [f"{'–' if theirs is None else f'{theirs:,}'} / {ours:,}" for theirs, ours in pairs]
-        yield [label, algorithm, *cells, reason if far else ""]
+        name = name_of(found[0][algorithm, variant])
+        yield [label, name, *cells, reason if far else ""]
     for row in columns[0]:
         if row["algorithm"] == "best":
             key = row["algorithm"], row["variant"]
