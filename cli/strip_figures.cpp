@@ -37,10 +37,20 @@ std::string find_fault(const Mesh& mesh, const StripMap& map) {
   const Triangulation triangles = triangulate(mesh);
   std::vector<Index> group;
   for (const Index face : triangles.face) group.push_back(mesh.group_of(face));
-  return find_strip_fault({.triangles = triangles.corners,
-                           .group = group,
-                           .wedge_count = static_cast<Index>(mesh.wedge_count())},
+  return find_strip_fault(StripInput{.triangles = triangles.corners,
+                                     .group = group,
+                                     .wedge_count = static_cast<Index>(mesh.wedge_count())},
                           map.entries);
+}
+
+std::string find_polygon_fault(const Mesh& mesh, const StripMap& map) {
+  const StripFaces faces = strippable_faces(mesh);
+  return find_polygon_strip_fault(
+      PolygonInput{.corners = faces.corners,
+                   .face_first = faces.face_first,
+                   .group = faces.group,
+                   .wedge_count = static_cast<Index>(mesh.wedge_count())},
+      map.entries);
 }
 
 std::vector<double> wedge_positions(const Mesh& mesh) {
@@ -57,9 +67,9 @@ std::vector<double> wedge_positions(const Mesh& mesh) {
 std::string find_point_fault(std::span<const double> positions, const Strips& strips,
                              const StripOptions& options) {
   const std::vector<Index> triangles = delaunay_triangles(positions, options);
-  return find_strip_fault({.triangles = triangles,
-                           .group = {},
-                           .wedge_count = static_cast<Index>(positions.size() / 3)},
+  return find_strip_fault(StripInput{.triangles = triangles,
+                                     .group = {},
+                                     .wedge_count = static_cast<Index>(positions.size() / 3)},
                           strips);
 }
 
@@ -102,7 +112,8 @@ StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
     add(out.stats, strip_stats(map.entries));
     // With diagonals of its own the strips have other triangles than the triangulation.
     const bool free_diagonals = stripifier.run_polygons && !mesh.face_first.empty();
-    if (out.remark.empty() && !free_diagonals) out.remark = find_fault(mesh, map);
+    if (out.remark.empty())
+      out.remark = free_diagonals ? find_polygon_fault(mesh, map) : find_fault(mesh, map);
     if (in_strip_order) mesh = in_order(mesh, map);
   }
   return out;

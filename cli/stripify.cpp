@@ -28,6 +28,7 @@ struct Options {
   LimitOptions limits;
 
   const std::string& input() const { return files[0]; }
+  std::string algorithm_or_best() const { return algorithm.empty() ? "best" : algorithm; }
   std::string output() const { return files.size() > 1 ? files[1] : std::string(); }
 };
 
@@ -40,7 +41,7 @@ struct Algorithm {
   explicit Algorithm(std::string_view name)
       : triangles(find_stripifier(name)),
         points(find_point_stripifier(name)),
-        tetrahedra(name == kTetraStripifier) {}
+        tetrahedra(name == kTetraStripifier || name == "best") {}
   bool is_any() const { return triangles || points || tetrahedra; }
 };
 
@@ -110,28 +111,25 @@ ExitCode compare(const Options& options, const StripOptions& strip_options, cons
 }
 
 ExitCode refuse_input(const Options& options, const Error& error, const Streams& io) {
-  const std::string name = options.algorithm.empty() ? "best" : options.algorithm;
-  if (options.format.json()) print_json(io.out, {}, &error, name, options);
+  if (options.format.json()) print_json(io.out, {}, &error, options.algorithm_or_best(), options);
   return complain(io, error, options.input());
 }
 
 ExitCode stripify_model(Model model, const Options& options, const StripOptions& strip_options,
                         const Streams& io) {
   const bool points_only = has_points(model) && !has_faces(model);
-  const std::string name = !options.algorithm.empty() ? options.algorithm
-                           : points_only              ? "delaunay"
-                                                      : "best";
+  const std::string name = options.algorithm_or_best();
   const Algorithm algorithm(name);
-  if (algorithm.tetrahedra)
+  const bool takes_points = algorithm.points && (points_only || !algorithm.triangles);
+  if (!takes_points && !algorithm.triangles)
     return refuse_input(options, {ErrorCode::unsupported, "holds no tetrahedra"}, io);
-  if (algorithm.points && has_too_many_points(model))
+  if (takes_points && has_too_many_points(model))
     return refuse_input(options, {ErrorCode::over_limit, "more points than can be triangulated"},
                         io);
   const std::string output = options.output();
   const StripFigures figures =
-      algorithm.points
-          ? measure_point_strips(model, *algorithm.points, strip_options, !output.empty())
-          : measure_strips(model, *algorithm.triangles, strip_options, !output.empty());
+      takes_points ? measure_point_strips(model, *algorithm.points, strip_options, !output.empty())
+                   : measure_strips(model, *algorithm.triangles, strip_options, !output.empty());
   if (!figures.remark.empty())
     return complain(io, {ErrorCode::corrupt, name + " " + figures.remark});
   options.stripping.note_time_limit(io);
@@ -200,11 +198,11 @@ Command add_stripify(CLI::App& root) {
   app->add_flag("--compare", options->compare,
                 "A table of all algorithms, and of other libraries' that are installed; all files "
                 "are inputs");
-  app->add_option(
-         "--algorithm,--stripifier", options->algorithm,
-         "One of " + names +
-             "; points: delaunay; tetrahedra: tetra-multi-path (default best, or what fits the "
-             "input); with --compare any number, parted by commas")
+  app->add_option("--algorithm,--stripifier", options->algorithm,
+                  "One of " + names +
+                      "; points: best, delaunay; tetrahedra: best, which is tetra-multi-path "
+                      "(default best); "
+                      "with --compare any number, parted by commas")
       ->type_name("NAME");
   options->stripping.add_to(*app);
   options->target.add_to(*app);

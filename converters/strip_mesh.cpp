@@ -136,28 +136,39 @@ StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
       [&](const GroupFaces& group) { return stripifier.run(group.triangles(), options); });
 }
 
+StripFaces strippable_faces(const Mesh& mesh) {
+  const Triangulation triangles = triangulate(mesh);
+  StripFaces out;
+  const auto add = [&](std::span<const Index> face, Index group) {
+    out.corners.insert(out.corners.end(), face.begin(), face.end());
+    out.face_first.push_back(static_cast<Index>(out.corners.size()));
+    out.group.push_back(group);
+  };
+  std::vector<Index> scratch;
+  std::size_t t = 0;  // the triangles of each face follow each other
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const bool whole = face.size() >= 3 && meets_no_vertex_twice(mesh, face, scratch);
+    if (whole) add(face, mesh.group_of(f));
+    for (; t < triangles.face.size() && triangles.face[t] == f; ++t)
+      if (!whole) add(std::span(triangles.corners).subspan(3 * t, 3), mesh.group_of(f));
+  }
+  return out;
+}
+
 StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
                      const StripOptions& options) {
-  const Triangulation triangles = triangulate(mesh);
   if (!stripifier.run_polygons || mesh.face_first.empty())
-    return strip_mesh(mesh, triangles, stripifier, options);
-  // The triangles of each face follow each other.
-  std::vector<Index> first(mesh.face_count() + std::size_t{1}, 0);
-  for (const Index f : triangles.face) ++first[f + 1];
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) first[f + 1] += first[f];
-
+    return strip_mesh(mesh, triangulate(mesh), stripifier, options);
+  const StripFaces all = strippable_faces(mesh);
   GroupFaces faces(mesh, true);
-  std::vector<Index> scratch;
-  const ByGroup by_group = sort_by_group(mesh.groups.size(), mesh.face_count(), [&](std::size_t f) {
-    return mesh.group_of(static_cast<Index>(f));
-  });
+  const ByGroup by_group = sort_by_group(mesh.groups.size(), all.group.size(),
+                                         [&](std::size_t f) { return all.group[f]; });
   return strip_groups(
       by_group, faces,
       [&](Index f, GroupFaces& out) {
-        const auto face = mesh.face(f);
-        if (face.size() >= 3 && meets_no_vertex_twice(mesh, face, scratch)) return out.add(face);
-        for (Index t = first[f]; t < first[f + 1]; ++t)
-          out.add(std::span(triangles.corners).subspan(std::size_t{3} * t, 3));
+        out.add(std::span(all.corners)
+                    .subspan(all.face_first[f], all.face_first[f + 1] - all.face_first[f]));
       },
       [&](const GroupFaces& group) { return stripifier.run_polygons(group.polygons(), options); });
 }

@@ -13,9 +13,17 @@ StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
                     const NamedStripifier& stripifier, const StripOptions& options = {},
                     std::span<const std::uint8_t> step_cost = {});
 
-/// The same of the faces, whose diagonals the stripifier chooses where it can
-/// (NamedStripifier::run_polygons) and triangulate() where not. Degenerate faces, and those that
-/// meet a vertex twice, are triangulated in any case.
+/// The faces that strips over polygons cover: those of a mesh, degenerate ones and those that meet
+/// a vertex twice as their triangles.
+struct StripFaces {
+  std::vector<Index> corners;  ///< wedges
+  std::vector<Index> face_first{0};
+  std::vector<Index> group;
+};
+StripFaces strippable_faces(const Mesh& mesh);
+
+/// strip_mesh() of the strippable faces, whose diagonals the stripifier chooses where it can
+/// (NamedStripifier::run_polygons) and triangulate() where not.
 StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
                      const StripOptions& options = {});
 

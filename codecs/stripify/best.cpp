@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "codecs/stripify/anneal.h"
+#include "codecs/stripify/delaunay.h"
 #include "codecs/stripify/few_strips.h"
 #include "codecs/stripify/qstrip.h"
 #include "codecs/stripify/sgi.h"
@@ -147,6 +148,14 @@ Strips best_polygon_strips(const PolygonInput& polygons, const StripOptions& opt
   const Strips improved = improve(input, graph, links_of(strips, graph), options);
   // Around non-manifold edges, triangles may pair up in other ways than their faces did.
   return cost(improved, options) <= cost(strips, options) ? improved : strips;
+}
+
+Strips best_point_strips(std::span<const double> positions, const StripOptions& options) {
+  const std::vector<Index> triangles = delaunay_triangles(positions, options);
+  return best_strips({.triangles = triangles,
+                      .group = {},
+                      .wedge_count = static_cast<Index>(positions.size() / 3)},
+                     options);
 }
 
 }  // namespace pstrip

@@ -12,4 +12,7 @@ Strips best_strips(const StripInput& input, const StripOptions& options);
 /// The same of the triangles for which qstrip() cuts the faces.
 Strips best_polygon_strips(const PolygonInput& input, const StripOptions& options);
 
+/// The same of the triangles of delaunay_triangles().
+Strips best_point_strips(std::span<const double> positions, const StripOptions& options);
+
 }  // namespace pstrip

@@ -14,4 +14,10 @@ namespace pstrip {
 /// cost  O(n log n)
 std::string find_strip_fault(const StripInput& input, std::span<const Index> strips);
 
+/// The same for strips over polygons, whose diagonals are free: that there are as many triangles as
+/// the faces have, in ascending order of group, and that in each group their edges are those of the
+/// faces, once what runs both ways between two triangles is taken away. Triangles of different
+/// faces could still be mixed up where they share edges.
+std::string find_polygon_strip_fault(const PolygonInput& input, std::span<const Index> strips);
+
 }  // namespace pstrip

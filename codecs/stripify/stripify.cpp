@@ -61,6 +61,7 @@ constexpr NamedStripifier kStripifiers[] = {
 };
 
 constexpr NamedPointStripifier kPointStripifiers[] = {
+    {.name = "best", .source = "ours, codecs/stripify/best.h", .run = best_point_strips},
     {.name = "delaunay", .source = "[Vanecek05 §3.2]", .run = delaunay_strips},
 };
 

@@ -67,11 +67,15 @@ class Points(ProgramTest):
             again = self.report("stripify", name, "--algorithm", "sgi-strips")
             self.assertEqual(again["triangles"], figures["triangles"], name)
 
-    def test_what_has_no_faces_takes_delaunay(self):
+    def test_points_are_triangulated_by_whatever_stripifies_them(self):
         self.write_points()
         self.run_program("convert", "points.xyz", "points.ply")
         for name in ("points.xyz", "points.ply"):
-            self.assertEqual(self.report("stripify", name)["algorithm"], "delaunay")
+            best = self.report("stripify", name)
+            delaunay = self.report("stripify", name, "--algorithm", "delaunay")
+            self.assertEqual((best["algorithm"], delaunay["algorithm"]), ("best", "delaunay"))
+            self.assertEqual(best["triangles"], delaunay["triangles"])
+            self.assertLess(best["indices_sent"], delaunay["indices_sent"])
         self.write_tube()
         self.assertEqual(self.report("stripify", "tube.obj")["algorithm"], "best")
 
@@ -115,7 +119,7 @@ class Tetrahedra(ProgramTest):
             report = self.report("stripify", "broken.mesh", code=code, schema="stripify-tetra")
             self.assertIn(words, report["error"]["message"])
         self.write("cube.mesh", CUBE)
-        run = self.run_program("stripify", "cube.mesh", "--algorithm", "best", code=1)
+        run = self.run_program("stripify", "cube.mesh", "--algorithm", "sgi-strips", code=1)
         self.assertIn("tetra-multi-path", run.err)
 
 

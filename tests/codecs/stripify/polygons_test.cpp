@@ -8,6 +8,7 @@
 #include <array>
 #include <set>
 
+#include "codecs/stripify/check.h"
 #include "codecs/stripify/random.h"
 #include "codecs/stripify/stats.h"
 #include "codecs/stripify/stripify.h"
@@ -120,8 +121,11 @@ TEST(PolygonStripCheck, SeesEveryKindOfFault) {
       {"has triangles that do not make up the faces", {0, 1, 3, 4, kR, 0, 1, 3, 4}},
       {"has triangles that do not make up the faces", {0, 1, 6, 4, kR, 1, 2, 4, 5}},
   };
-  for (const auto& [fault, strips] : kCases)
+  for (const auto& [fault, strips] : kCases) {
     EXPECT_EQ(find_strip_fault(mesh.input(), strips), fault) << testing::PrintToString(strips);
+    EXPECT_EQ(find_polygon_strip_fault(mesh.input(), strips).empty(), *fault == 0)
+        << testing::PrintToString(strips);
+  }
   PolygonMesh parted = mesh;
   parted.group = {0, 1};
   EXPECT_EQ(find_strip_fault(parted.input(), std::vector<Index>{0, 1, 3, 4, 5}),
@@ -172,6 +176,7 @@ RC_GTEST_PROP(PolygonStripifiers, CoverRandomSoupsOnce, (std::uint32_t seed)) {
   for_each_polygon_stripifier([&](PolygonStripifier stripify, const StripOptions& options) {
     const Strips strips = stripify(mesh.input(), options);
     RC_ASSERT(find_strip_fault(mesh.input(), strips) == "");
+    RC_ASSERT(find_polygon_strip_fault(mesh.input(), strips) == "");
     RC_ASSERT(stripify(mesh.input(), options) == strips);
   });
 }
@@ -219,6 +224,7 @@ RC_GTEST_PROP(PolygonStripifiers, DoNotFoldConcaveFaces, (std::uint32_t seed)) {
     for_each_polygon_stripifier([&](PolygonStripifier stripify, const StripOptions& options) {
       const Strips strips = stripify(mesh.input(), options);
       RC_ASSERT(find_strip_fault(mesh.input(), strips) == "");
+      RC_ASSERT(find_polygon_strip_fault(mesh.input(), strips) == "");
       for_each_triangle(
           strips, [](Index w) { return w; },
           [&](Index a, Index b, Index c) { RC_ASSERT(area(mesh, a, b, c) > 0); });
