@@ -57,7 +57,7 @@ void add_runs(const NamedStripifier& algorithm, const StripOptions& given, std::
   } else if (algorithm.honors_goal) {
     add("indices", [](StripOptions& o) { o.goal = StripGoal::indices; });
     add("strips", [](StripOptions& o) { o.goal = StripGoal::strips; });
-  } else if (algorithm.uses_positions) {
+  } else if (algorithm.honors_weight) {
     add("topological", [](StripOptions& o) { o.weight = StripWeight::topological; });
     add("axis", [](StripOptions& o) { o.weight = StripWeight::axis; });
   } else {

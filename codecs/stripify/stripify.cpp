@@ -36,6 +36,7 @@ constexpr NamedStripifier kStripifiers[] = {
     {.name = "multi-path-weighted",
      .source = "[Vanecek05 §5.1]",
      .run = multi_path_weighted,
+     .honors_weight = true,
      .uses_positions = true},
     {.name = "ftsg", .source = "[Xiang99; Vanecek05 §2.2, §8.1]", .run = ftsg},
     {.name = "ftsg-sgi", .source = "[Xiang99; Vanecek05 §2.2, §8.1 FTS]", .run = ftsg_sgi},

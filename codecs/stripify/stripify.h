@@ -80,6 +80,7 @@ struct NamedStripifier {
   Stripifier run;
   PolygonStripifier run_polygons = nullptr;  ///< nullptr: wants its faces triangulated
   bool honors_goal = false;                  ///< StripOptions::goal changes what it does
+  bool honors_weight = false;                ///< and StripOptions::weight
   bool uses_positions = false;
 };
 
