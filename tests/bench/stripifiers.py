@@ -4,7 +4,7 @@
     stripifiers.py PSTRIPS POINTS_TABLES OUTPUT_FOLDER [SECTION …]
 
 Writes stripifiers.md, stripifiers.csv (every run) and plots as SVG. Sections: thesis, models, both,
-quads, scaling, points; without any, all of them. Models come from $PSTRIPS_MODELS or ../shared/models
+quads, progressive, scaling, points; without any, all of them. Models come from $PSTRIPS_MODELS or ../shared/models
 beside the source tree; without that folder only what is generated is compared.
 """
 
@@ -79,7 +79,7 @@ class Bench:
     def write(self, words):
         self.page.append(words)
 
-    def _run(self, *arguments):
+    def run(self, *arguments):
         command = [self.pstrips, *map(str, arguments)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
@@ -96,13 +96,13 @@ class Bench:
         """A row for each algorithm and variant; without `algorithms`, of all and the peers."""
         self.say(f"{model} {' '.join(map(str, options))}")
         chosen = ["--algorithm", ",".join(algorithms)] if algorithms else []
-        out = self._run("stripify", "--compare", "--format", "json", *chosen, *options, path)
+        out = self.run("stripify", "--compare", "--format", "json", *chosen, *options, path)
         return self._keep(model, json.loads(out)["models"][0]["algorithms"])
 
     def best(self, model, path, goal, effort, price=3):
         """One run, which --compare does not make: few strips at once, or at another price."""
         self.say(f"{model} best, {goal} {effort}, price {price}")
-        out = self._run("stripify", "--format", "json", "--goal", goal, "--strip-effort", effort,
+        out = self.run("stripify", "--format", "json", "--goal", goal, "--strip-effort", effort,
                         "--strip-price", price, path)
         row = json.loads(out)
         row["variant"] = effort + (", strips" if goal == "strips" else "")
@@ -112,7 +112,7 @@ class Bench:
 
     def plain_mesh(self, path):
         plain = self.folder / "plain.obj"
-        self._run("convert", "--quiet", "--attributes", "none", path, plain)
+        self.run("convert", "--quiet", "--attributes", "none", path, plain)
         return strip_meshes.read_obj(plain)
 
     def generated(self, name, mesh):
@@ -360,7 +360,48 @@ def quads(bench, folder):
     bench.write(table(header, rows))
 
 
-# Section 5: scaling
+# Section 5: progressive files
+
+
+def progressive_row(bench, model, path, options):
+    """What a file made with these options costs as a whole and at its levels."""
+    bench.say(f"{model} {' '.join(options)}")
+    file = bench.folder / "progressive.pstrip"
+    bench.run("convert", "--quiet", *options, path, file)
+    report = json.loads(bench.run("inspect", "--format", "json", file))
+    levels = report["packets"]
+    sent = [level["vertices_sent"] / max(1, level["triangles"]) for level in levels]
+    return {"options": " ".join(option for option in options if option != "--stripifier"),
+            "bytes": report["bytes"], "u": report["places_per_vsplit"],
+            "base": sent[0], "mean": sum(sent) / len(sent), "full": sent[-1],
+            "base strips": levels[0]["strips"], "full strips": levels[-1]["strips"]}
+
+
+def progressive(bench, models):
+    chosen = {name: path for name, path in models.items() if name in ("cow", "bunny", "horse")}
+    if not chosen:
+        return
+    bench.write("## Progressive files\n\nFiles of `convert` with each stripifier, and with what `best` "
+                "pays for steps that tear strips at coarser levels (--level-cost; 1 is the default).\n"
+                "*u* is how many map entries a vsplit rewrites; then vertices sent a triangle by the "
+                "degenerate-triangle-free filter: at the base (5 % of the triangles), the mean of all\n"
+                "packets, and at the full mesh.\n\n")
+    for model, path in chosen.items():
+        names = [row["algorithm"] for row in bench.compare(model, path)
+                 if row["algorithm"] not in PEERS]
+        runs = [["--stripifier", name] for name in dict.fromkeys(names)]
+        runs += [["--level-cost", str(cost), "--strip-effort", effort]
+                 for effort in ("fast", "high") for cost in (0, 1, 2, 3)]
+        rows = [progressive_row(bench, model, path, run) for run in runs]
+        smallest = min(row["bytes"] for row in rows if row["options"] in names)
+        bench.write(f"### {model}\n\n" + table(
+            ["convert", "bytes", "of the least", "u", "base", "mean", "full", "strips, base", "full"],
+            [[row["options"], f"{row['bytes']:,}", f"{row['bytes'] / smallest:.3f}",
+              f"{row['u']:.2f}", f"{row['base']:.3f}", f"{row['mean']:.3f}", f"{row['full']:.3f}",
+              f"{row['base strips']:,}", f"{row['full strips']:,}"] for row in rows]))
+
+
+# Section 6: scaling
 
 
 def scaling(bench):
@@ -417,7 +458,7 @@ def draw_scaling(path, series, counts):
     out.write(path)
 
 
-# Section 6: points and tetrahedra
+# Section 7: points and tetrahedra
 
 
 def points(bench, program, folder):
@@ -457,6 +498,7 @@ def main():
                     "models": lambda: every_model(bench, models),
                     "both": lambda: both_goals(bench, models),
                     "quads": lambda: quads(bench, folder),
+                    "progressive": lambda: progressive(bench, models),
                     "scaling": lambda: scaling(bench),
                     "points": lambda: points(bench, points_tables, folder)}
         unknown = set(chosen) - set(sections)
