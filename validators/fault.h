@@ -56,6 +56,8 @@ enum class Fault : std::uint8_t {
   faces_empty,
   face_elements,
   order_mesh,
+  order_rotation_bits,
+  packed_padding,
   digest_mesh,
   image_data,
   packet_not_next,
@@ -116,7 +118,7 @@ enum class Field : std::uint8_t {
   face_group,
   replaced_first,
   replaced,
-  order,  ///< oRDR
+  order,  ///< oRDP
   order_vertex,
   order_wedge,
   order_face,

@@ -42,6 +42,12 @@ class LocateIo : public SizeIo {
     mark(&data);
     SizeIo::run(data, element, first, n);
   }
+  template <class T>
+  void packed(const std::vector<T>& v, unsigned bits, std::uint64_t n) {
+    mark(&v);
+    if (&v == target_) bits_ = bits;
+    SizeIo::packed(v, bits, n);
+  }
   template <class S, class T>
   void column(const std::vector<S>& v, T S::*field, std::size_t first, std::uint64_t n) {
     if (position_ == kNoOffset) mark(&v);  // the first column stands for the records
@@ -50,6 +56,10 @@ class LocateIo : public SizeIo {
 
   /// From the start of the payload; 0 when the target is not in it.
   std::uint64_t position() const { return position_ == kNoOffset ? 0 : position_; }
+  /// The same of the byte where a number of a packed target begins.
+  std::uint64_t position_in_packed(std::uint64_t element) const {
+    return position() + element * bits_ / 8;
+  }
 
  private:
   void mark(const void* at) {
@@ -57,6 +67,7 @@ class LocateIo : public SizeIo {
   }
   const void* target_;
   std::uint64_t position_ = kNoOffset;
+  unsigned bits_ = 0;
 };
 
 template <class Fields>
@@ -211,13 +222,13 @@ class Locator {
       case Field::order:
         return chunk(at.order);
       case Field::order_vertex:
-        return in_order(&mesh.order.vertex, 4, ", vertex ");
+        return in_order(&mesh.order.vertex, ", vertex ");
       case Field::order_wedge:
-        return in_order(&mesh.order.wedge, 4, ", wedge ");
+        return in_order(&mesh.order.wedge, ", wedge ");
       case Field::order_face:
-        return in_order(&mesh.order.face, 4, ", face ");
+        return in_order(&mesh.order.face, ", face ");
       case Field::rotation:
-        return in_order(&mesh.order.rotation, 1, ", rotation ");
+        return in_order(&mesh.order.rotation, ", rotation ");
       case Field::digest:
         return chunk(at.digest);
       default:
@@ -266,14 +277,16 @@ class Locator {
     return in_payload(number, position_of(list, fields) + 4 * where_.element,
                       numbered(path, where_.element));
   }
-  Location in_order(const void* list, std::uint64_t element_bytes, const char* path) const {
+  Location in_order(const void* list, const char* path) const {
+    const Index number = doc_.mesh_chunks[where_.mesh].order;
+    if (number >= chunks_.size()) return {};
     const ProgressiveMesh& mesh = doc_.strips.meshes[where_.mesh];
-    const auto fields = [&](LocateIo& io) {
-      io.zeros(8);
-      order_fields(io, doc_.declared[where_.mesh], mesh.single_wedges, mesh.order);
-    };
-    return in_payload(doc_.mesh_chunks[where_.mesh].order,
-                      position_of(list, fields) + element_bytes * where_.element,
+    const auto head = read_head<OrderHead>(
+        chunks_[number], [](ReadIo& io, OrderHead& h) { order_head_fields(io, h); });
+    LocateIo io(list);
+    order_head_fields(io, head);
+    order_array_fields(io, head, doc_.declared[where_.mesh], mesh.single_wedges, mesh.order);
+    return in_payload(number, io.position_in_packed(where_.element),
                       numbered(path, where_.element));
   }
 

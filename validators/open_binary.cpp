@@ -369,7 +369,7 @@ class Opener {
     return false;
   }
 
-  /// Tail chunks ascend by mesh, then in the order fACE, oRDR, dGST.
+  /// Tail chunks ascend by mesh, then in the order fACE, oRDP, dGST.
   bool takes_tail(Index MeshChunks::*kind, Index mesh, int rank) {
     const std::int64_t now = std::int64_t{mesh} * 3 + rank;
     if (now <= tail_) {
@@ -409,20 +409,28 @@ class Opener {
   }
 
   bool read_order(ProbeIo& io) {
-    Index m = 0;
-    io.number(m);
-    io.zeros(4);
+    OrderHead head;
+    order_head_fields(io, head);
     if (io.failed()) return io.finish();
+    const Index m = head.mesh;
     if (!names_mesh(m, Fault::order_mesh)) return false;
     if (!takes_tail(&MeshChunks::order, m, 1)) return false;
     ProgressiveMesh& mesh = doc_.strips.meshes[m];
     const MeshCounts& counts = doc_.declared[m];
+    const auto fault_in_bits = [&] {
+      fault(Fault::order_rotation_bits, at_chunk(chunk_), std::to_string(head.rotation_bits));
+    };
+    if (head.rotation_bits > kMaxRotationBits) {
+      fault_in_bits();
+      return false;
+    }
     if (!io.expect([&](auto& size) {
-          size.zeros(8);
-          order_fields(size, counts, mesh.single_wedges, mesh.order);
+          order_head_fields(size, head);
+          order_array_fields(size, head, counts, mesh.single_wedges, std::as_const(mesh.order));
         }))
       return io.finish();
-    order_fields(io, counts, mesh.single_wedges, mesh.order);
+    order_array_fields(io, head, counts, mesh.single_wedges, mesh.order);
+    if (head.rotation_bits != rotation_bits(mesh.order.rotation)) fault_in_bits();
     return true;
   }
 

@@ -60,6 +60,14 @@ class ProbeIo {
   void column(std::vector<S>& v, T S::*field, std::size_t first, std::uint64_t n) {
     io_.column(v, field, first, n);
   }
+  /// Precondition: as for ReadIo; here expect() has seen to it.
+  template <class T>
+  void packed(std::vector<T>& v, unsigned bits, std::uint64_t n) {
+    const ByteView bytes = in().take(layout::packed_bytes(bits, n));
+    if (in().error()) return;
+    if (!layout::ends_in_zeros(bytes, bits, n)) note(Fault::packed_padding, in().offset() - 1);
+    v = layout::unpack<T>(bytes, bits, n);
+  }
   void rest(Bytes& bytes) { io_.rest(bytes); }
   void align() {
     const std::size_t rest = in().position() % layout::kArrayAlignment;

@@ -536,23 +536,27 @@ Result<void> BinaryParser::State::read_faces(ReadIo& io) {
 }
 
 Result<void> BinaryParser::State::read_order(ReadIo& io) {
-  Index index = 0;
-  io.number(index);
-  io.zeros(4);
+  OrderHead head;
+  order_head_fields(io, head);
   if (io.in().error()) return finish(io);
-  if (index >= strips.meshes.size()) return corrupt("oRDR names a mesh past the end");
+  const Index index = head.mesh;
+  if (index >= strips.meshes.size()) return corrupt("oRDP names a mesh past the end");
   if (!ascends(mesh_rank(index, 1))) return corrupt("chunk is out of order");
   ProgressiveMesh& mesh = strips.meshes[index];
-  const std::uint64_t needed =
-      8 + size_of_fields([&](auto& size) {
-        order_fields(size, counts[index], mesh.single_wedges, std::as_const(mesh.order));
-      });
+  if (head.rotation_bits > kMaxRotationBits)
+    return corrupt("rotations of an oRDP have more than 8 bits");
+  const std::uint64_t needed = size_of_fields([&](auto& size) {
+    order_head_fields(size, head);
+    order_array_fields(size, head, counts[index], mesh.single_wedges, std::as_const(mesh.order));
+  });
   if (needed != io.in().position() + io.in().remaining())
-    return corrupt("oRDR is not as long as the counts in MESH say");
+    return corrupt("oRDP is not as long as the counts in MESH say");
   if (face_count(mesh) != counts[index].faces)
     return corrupt("number of faces in MESH needs a fACE chunk");
-  order_fields(io, counts[index], mesh.single_wedges, mesh.order);
+  order_array_fields(io, head, counts[index], mesh.single_wedges, mesh.order);
   Result<void> ok = finish(io);
+  if (ok && head.rotation_bits != rotation_bits(mesh.order.rotation))
+    ok = corrupt("rotation_bits of an oRDP is not the least");
   if (ok) ok = check_order(strips, index);
   if (!ok) mesh.order = {};
   return ok;

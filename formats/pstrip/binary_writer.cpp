@@ -88,9 +88,9 @@ void write_tail(Out& out, const ProgressiveMesh& mesh, Index index) {
     });
   if (mesh.order != OriginalOrder{})
     out.chunk(kOrderChunk, [&](auto& io) {
-      io.number(index);
-      io.zeros(4);
-      order_fields(io, counts_of(mesh), mesh.single_wedges, mesh.order);
+      const OrderHead head{index, rotation_bits(mesh.order.rotation)};
+      order_head_fields(io, head);
+      order_array_fields(io, head, counts_of(mesh), mesh.single_wedges, mesh.order);
     });
   if (!mesh.digest.empty())
     out.chunk(kDigestChunk, [&](auto& io) {
@@ -170,6 +170,7 @@ FileHeader totals_of(const ProgressiveStrips& strips) {
   header.meshes = static_cast<std::uint32_t>(strips.meshes.size());
   header.packets = static_cast<std::uint32_t>(strips.packets.size());
   for (const ProgressiveMesh& mesh : strips.meshes) {
+    if (mesh.order != OriginalOrder{}) header.version_minor = 1;  // that has oRDP
     header.vertices += mesh.vertices;
     header.wedges += mesh.wedges;
     header.triangles += mesh.triangles;

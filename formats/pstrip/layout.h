@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <type_traits>
@@ -27,6 +28,54 @@ inline constexpr std::size_t kMinGroupBytes = kMinStringBytes + 12;
 inline constexpr std::size_t kMinNodeBytes = kMinStringBytes + 4 + 16 * 8 + 4;
 inline constexpr std::size_t kMinMaterialBytes = kMinStringBytes + 9 * 8 + 8;
 inline constexpr std::size_t kMinImageBytes = 3 * kMinStringBytes + 4;
+
+// Packed arrays: numbers of `bits` bits each, at most 32, lowest bit first, without gaps.
+// [spec/container.md §8.2]
+
+constexpr std::uint64_t packed_bytes(unsigned bits, std::uint64_t n) { return (n * bits + 7) / 8; }
+
+/// What a permutation of n elements needs for each.
+constexpr unsigned permutation_bits(Index n) {
+  return n == 0 ? 0 : static_cast<unsigned>(std::bit_width(n - 1));
+}
+
+/// Precondition: out has packed_bytes() for the numbers, all zero, and each fits.
+template <class T>
+void pack(const std::vector<T>& numbers, unsigned bits, std::span<std::byte> out) {
+  std::uint64_t window = 0;
+  unsigned filled = 0;
+  std::size_t at = 0;
+  for (const T number : numbers) {
+    assert(std::bit_width(number) <= static_cast<int>(bits));
+    window |= std::uint64_t{number} << filled;
+    for (filled += bits; filled >= 8; filled -= 8, window >>= 8)
+      out[at++] = static_cast<std::byte>(window & 0xff);
+  }
+  if (filled > 0) out[at] = static_cast<std::byte>(window);
+}
+
+/// Precondition: bytes.size() == packed_bytes(bits, n).
+template <class T>
+std::vector<T> unpack(ByteView bytes, unsigned bits, std::uint64_t n) {
+  std::vector<T> out(n);
+  std::uint64_t window = 0;
+  unsigned filled = 0;
+  std::size_t at = 0;
+  for (T& number : out) {
+    for (; filled < bits; filled += 8)
+      window |= std::to_integer<std::uint64_t>(bytes[at++]) << filled;
+    number = static_cast<T>(window & ((std::uint64_t{1} << bits) - 1));
+    window >>= bits;
+    filled -= bits;
+  }
+  return out;
+}
+
+/// Whether the bits after the last number are zero.
+inline bool ends_in_zeros(ByteView bytes, unsigned bits, std::uint64_t n) {
+  const auto used = static_cast<unsigned>(n * bits % 8);
+  return used == 0 || std::to_integer<unsigned>(bytes.back()) >> used == 0;
+}
 
 /// Adds up bytes. Counts from a file are safe here: no product of 32-bit counts and 8-bit sizes
 /// leaves 64 bits.
@@ -58,6 +107,10 @@ class SizeIo {
   template <class S, class T>
   void column(const std::vector<S>&, T S::*, std::size_t, std::uint64_t n) {
     skip(n * sizeof(T));
+  }
+  template <class T>
+  void packed(const std::vector<T>&, unsigned bits, std::uint64_t n) {
+    skip(packed_bytes(bits, n));
   }
   void rest(const Bytes& bytes) { skip(bytes.size()); }
   void align() { size_ = (size_ + kArrayAlignment - 1) / kArrayAlignment * kArrayAlignment; }
@@ -111,6 +164,14 @@ class WriteIo {
   void column(const std::vector<S>& v, T S::*field, std::size_t first, std::uint64_t n) {
     assert(first + n <= v.size());
     for (std::size_t i = first; i < first + n; ++i) number(v[i].*field);
+  }
+  template <class T>
+  void packed(const std::vector<T>& v, unsigned bits, std::uint64_t n) {
+    assert(v.size() == n);
+    const std::uint64_t size = packed_bytes(bits, n);
+    assert(at_ + size <= out_.size());
+    pack(v, bits, out_.subspan(at_, size));
+    at_ += size;
   }
   void rest(const Bytes& bytes) { put(bytes.data(), bytes.size()); }
   void align() { at_ = (at_ + kArrayAlignment - 1) / kArrayAlignment * kArrayAlignment; }
@@ -184,6 +245,15 @@ class ReadIo {
     if (v.size() < first + n) v.resize(first + n);
     for (std::size_t i = 0; i < n; ++i)
       std::memcpy(&(v[first + i].*field), bytes.data() + i * sizeof(T), sizeof(T));
+  }
+  /// Precondition: the payload has been found to be as long as its counts say.
+  template <class T>
+  void packed(std::vector<T>& v, unsigned bits, std::uint64_t n) {
+    const ByteView bytes = in_.take(packed_bytes(bits, n));
+    if (in_.error()) return;
+    if (!ends_in_zeros(bytes, bits, n))
+      in_.fail(ErrorCode::corrupt, "bits after a packed array are not zero");
+    v = unpack<T>(bytes, bits, n);
   }
   void rest(Bytes& bytes) {
     const ByteView all = in_.take(in_.remaining());
@@ -402,7 +472,7 @@ void packet_array_fields(Io& io, const PacketHead& h, M& mesh, const PacketStart
   io.align();
 }
 
-// ---- fACE, oRDR, dGST ----------------------------------------------------------------------
+// ---- fACE, oRDP, dGST ----------------------------------------------------------------------
 
 struct FacesHead {
   Index mesh = 0, faces = 0, corners = 0, replaced = 0;
@@ -436,15 +506,37 @@ void faces_array_fields(Io& io, const FacesHead& h, F& table, std::uint64_t all_
   }
 }
 
+struct OrderHead {
+  Index mesh = 0;
+  std::uint8_t rotation_bits = 0;  ///< of each rotation, at most kMaxRotationBits
+};
+
+inline constexpr unsigned kMaxRotationBits = 8;
+
+template <class Io, class H>
+void order_head_fields(Io& io, H& h) {
+  io.number(h.mesh);
+  io.number(h.rotation_bits);
+  io.zeros(3);
+}
+
+/// What rotation_bits has to be.
+inline std::uint8_t rotation_bits(const std::vector<std::uint8_t>& rotation) {
+  std::uint8_t all = 0;
+  for (const std::uint8_t r : rotation) all |= r;
+  return static_cast<std::uint8_t>(std::bit_width(all));
+}
+
 template <class Io, class O>
-void order_fields(Io& io, const MeshCounts& counts, bool single_wedges, O& order) {
-  io.run(order.vertex, 0, counts.vertices);
+void order_array_fields(Io& io, const OrderHead& h, const MeshCounts& counts, bool single_wedges,
+                        O& order) {
+  io.packed(order.vertex, permutation_bits(counts.vertices), counts.vertices);
   io.align();
-  if (!single_wedges) io.run(order.wedge, 0, counts.wedges);
+  if (!single_wedges) io.packed(order.wedge, permutation_bits(counts.wedges), counts.wedges);
   io.align();
-  io.run(order.face, 0, counts.faces);
+  io.packed(order.face, permutation_bits(counts.faces), counts.faces);
   io.align();
-  io.run(order.rotation, 0, counts.faces);
+  io.packed(order.rotation, h.rotation_bits, counts.faces);
   io.align();
 }
 

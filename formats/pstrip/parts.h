@@ -26,7 +26,7 @@ enum class Part : std::uint8_t {
   carried,  ///< wedges taken over
   places,   ///< index-map offsets
   faces,    ///< fACE
-  order,    ///< oRDR
+  order,    ///< oRDP
   digest,   ///< dGST
   scene,    ///< sCNE, mTRL
   images,   ///< iMGE

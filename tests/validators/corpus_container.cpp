@@ -183,12 +183,23 @@ constexpr Case kCases[] = {
     {"PS1061_faces_missing.pstrip",
      [] { return settled(numbered_faces(), [](ChunkFile& f) { erase(f, "fACE"); }); }},
     {"PS1062_order_of_no_mesh.pstrip",
-     [] { return recut(seam(), [](ChunkFile& f) { f.put("oRDR", 0, 1u); }); }},
+     [] { return recut(seam(), [](ChunkFile& f) { f.put("oRDP", 0, 1u); }); }},
     {"PS1063_digest_of_no_mesh.pstrip",
      [] { return recut(seam(), [](ChunkFile& f) { f.put("dGST", 0, 1u); }); }},
     {"PS1064_algorithm_2.pstrip",
      [] { return recut(seam(), [](ChunkFile& f) { f.put("dGST", 4, 2u); }); }},
     {"PS1064_algorithm_md5.pstripx", [] { return reworded(seam(), "SHA-256", "MD5"); }},
+    {"PS1065_a_bit_too_many.pstrip",
+     [] {
+       return recut(seam(), [](ChunkFile& f) {
+         f.put("oRDP", 4, std::uint8_t{3});
+         f.put("oRDP", 32, std::uint8_t{2 + (3 << 3)});  // the same rotations
+       });
+     }},
+    {"PS1065_nine_bits.pstrip",
+     [] { return recut(seam(), [](ChunkFile& f) { f.put("oRDP", 4, std::uint8_t{9}); }); }},
+    {"PS1066_bits_after_the_faces.pstrip",
+     [] { return recut(seam(), [](ChunkFile& f) { f.put("oRDP", 24, std::uint8_t{0xc9}); }); }},
     {"PS1070_image_not_embedded.pstrip",
      [] { return recut(scene(), [](ChunkFile& f) { f.put("iMGE", 0, 0u); }); }},
     {"PS1071_image_missing.pstrip",

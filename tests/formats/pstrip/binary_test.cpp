@@ -1,6 +1,8 @@
 #include "formats/pstrip/binary.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cstring>
@@ -8,6 +10,7 @@
 
 #include "formats/pstrip/check.h"
 #include "formats/pstrip/chunks.h"
+#include "formats/pstrip/layout.h"
 #include "tests/support/progressive.h"
 
 namespace pstrip {
@@ -443,6 +446,35 @@ TEST(Binary, ARefusedChunkLeavesTheStripsAsTheyWere) {
   ASSERT_FALSE(again) << "the error stays";
   EXPECT_EQ(again.error(), fed.error());
   EXPECT_TRUE(after.has_base());
+}
+
+TEST(PackedArrays, StandLowestBitFirst) {
+  const auto packed = [](const std::vector<Index>& numbers, unsigned bits) {
+    Bytes out(layout::packed_bytes(bits, numbers.size()));
+    layout::pack(numbers, bits, out);
+    return out;
+  };
+  const auto bytes = [](std::initializer_list<int> values) {
+    Bytes out;
+    for (const int v : values) out.push_back(static_cast<std::byte>(v));
+    return out;
+  };
+  EXPECT_EQ(packed({1, 2, 0}, 2), bytes({0x09}));
+  EXPECT_EQ(packed({5, 0, 7, 1}, 3), bytes({0xc5, 0x03}));
+  EXPECT_EQ(packed({0xfffffffe, 1}, 32), bytes({0xfe, 0xff, 0xff, 0xff, 1, 0, 0, 0}));
+  EXPECT_EQ(packed({0, 0}, 0), Bytes());
+  EXPECT_FALSE(layout::ends_in_zeros(bytes({0xc9}), 2, 3));
+  EXPECT_TRUE(layout::ends_in_zeros(bytes({0xff}), 2, 4));
+}
+
+RC_GTEST_PROP(PackedArrays, ComeBack, ()) {
+  const auto bits = *rc::gen::inRange<unsigned>(0, 33);
+  auto numbers = *rc::gen::arbitrary<std::vector<Index>>();
+  for (Index& n : numbers) n = bits == 0 ? 0 : n >> (32 - bits);
+  Bytes out(layout::packed_bytes(bits, numbers.size()));
+  layout::pack(numbers, bits, out);
+  RC_ASSERT(layout::unpack<Index>(out, bits, numbers.size()) == numbers);
+  RC_ASSERT(layout::ends_in_zeros(out, bits, numbers.size()));
 }
 
 }  // namespace
