@@ -80,6 +80,7 @@ ExitCode run(const Options& options, const Streams& io) {
   if (!target) return complain(io, target.error());
   auto encode_options = options.encode.get();
   if (!encode_options) return complain(io, encode_options.error());
+  encode_options->memory_bytes = options.limits.limits.memory_bytes;
   // A mesh made from a text record has the record's own order.
   if (!is_progressive(*target)) encode_options->keep_order = true;
   ProgressBar bar(io);

@@ -37,7 +37,8 @@ void LimitOptions::add_to(CLI::App& app) {
   add("--max-corners", limits.corners, "Refuse files with more face corners or map entries");
   add("--max-meshes", limits.meshes, "Refuse files with more meshes, materials, images or nodes");
   add("--max-string", limits.string_bytes, "Refuse longer names and comments (bytes)");
-  add("--max-memory", limits.memory_bytes, "Refuse files that need more memory to read (bytes)");
+  add("--max-memory", limits.memory_bytes,
+      "Refuse models that need more memory to read or to encode (bytes)");
   app.add_option("--max-depth", limits.xml_depth, "Refuse deeper nesting in XML and JSON")
       ->capture_default_str()
       ->group("Limits");

@@ -11,6 +11,7 @@
 #include "codecs/vsplit/faces.h"
 #include "codecs/vsplit/level.h"
 #include "codecs/vsplit/record.h"
+#include "converters/capacity.h"
 #include "converters/level_cost.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
@@ -133,6 +134,9 @@ class Encoder {
       const std::string wrong = find_inconsistency(model_.meshes[m]);
       if (!wrong.empty())
         return fail(ErrorCode::bad_argument, "mesh " + std::to_string(m) + ": " + wrong);
+      if (auto ok = check_capacity(work_size(model_.meshes[m]), options_.memory_bytes); !ok)
+        return fail(ErrorCode::over_limit, ok.error().message, kNoOffset,
+                    "/meshes/" + std::to_string(m));
     }
     choose_share();
     std::vector<Encoded> encoded;

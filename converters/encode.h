@@ -40,6 +40,8 @@ struct EncodeOptions {
   Metric metric = Metric::qem;
   /// How much attributes count when collapses are chosen, see AttributeWeight; the others as usual.
   std::vector<AttributeWeight> attribute_weights{};
+  /// That a mesh may take, see check_capacity(); the largest mesh decides.
+  std::uint64_t memory_bytes = Limits{}.memory_bytes;
   bool keep_order = false;          ///< vertex, wedge and face order of the source
   double packet_growth = 1.0 / 16;  ///< vertices a packet adds, as a share of those before it
   Index packet_min = 256;           ///< and at least so many
@@ -61,8 +63,8 @@ struct SimplifyReport {
 /// result.
 ///
 /// reports  one a mesh is added, unless null
-/// errors   bad_argument for an unknown stripifier or an inconsistent mesh or scene, over_limit for
-/// more than
+/// errors   bad_argument for an unknown stripifier or an inconsistent mesh or scene, over_limit
+///          for a mesh that check_capacity() refuses (before any work) or that comes to more than
 ///          kMaxCount map entries, interrupted
 Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
                                  const Progress& progress = {},

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "core/limits.h"
+
 namespace pstrip {
 namespace {
 
@@ -180,7 +182,8 @@ Result<FileBytes> read_file(const std::filesystem::path& path, std::uint64_t max
   const auto size = static_cast<std::size_t>(info.st_size);
   if (S_ISREG(info.st_mode) && path != "-" && size > 0) {
     if (size > max_bytes)
-      return fail(ErrorCode::over_limit, "larger than the limit", kNoOffset, path.string());
+      return fail(ErrorCode::over_limit, over_limit_message(size, "bytes", max_bytes), kNoOffset,
+                  path.string());
     void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.get(), 0);
     if (mapping != MAP_FAILED) {
       out.mapping_ = mapping;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 namespace pstrip {
 
@@ -15,5 +17,12 @@ struct Limits {
   std::uint64_t memory_bytes = 8ull << 30;  ///< what a reader may allocate in all
   std::uint32_t xml_depth = 64;             ///< nesting of elements (also of JSON)
 };
+
+/// "9 vertices, more than the limit of 8"
+inline std::string over_limit_message(std::uint64_t figure, std::string_view what,
+                                      std::uint64_t limit) {
+  return std::to_string(figure) + " " + std::string(what) + ", more than the limit of " +
+         std::to_string(limit);
+}
 
 }  // namespace pstrip

@@ -140,7 +140,8 @@ class ModelReader {
     const std::uint64_t most =
         std::min<std::uint64_t>({limits_.vertices, limits_.wedges, kMaxCount});
     if (vertex->count > most)
-      return refuse(ErrorCode::over_limit, "more vertices than the limit", "vertex");
+      return refuse(ErrorCode::over_limit, over_limit_message(vertex->count, "vertices", most),
+                    "vertex");
     const Element* const face = element("face");
     if (face != nullptr) face_layout_ = face_layout(*face);
     vertex_layout_ = vertex_layout(*vertex, face != nullptr && has_texcoord_list(*face));
@@ -152,8 +153,8 @@ class ModelReader {
   bool plan_faces() {
     const Element* const face = element("face");
     if (face == nullptr) return true;
-    if (face->count > std::min<std::uint64_t>(limits_.corners, kMaxCount))
-      return refuse(ErrorCode::over_limit, "more faces than the limit", "face");
+    if (const auto most = std::min<std::uint64_t>(limits_.corners, kMaxCount); face->count > most)
+      return refuse(ErrorCode::over_limit, over_limit_message(face->count, "faces", most), "face");
     for (std::size_t p = 0; p < face->properties.size(); ++p)
       if (face_layout_.places[p].role == Role::corners) {
         if (is_integer(face->properties[p].type)) return true;
@@ -271,7 +272,10 @@ class ModelReader {
     const std::uint64_t bytes = rows * row_bytes;
     if (bytes > limits_.memory_bytes - used_bytes_)
       return refuse(
-          {ErrorCode::over_limit, "needs more memory than the limit", kept_.header.body, {}});
+          {ErrorCode::over_limit,
+           over_limit_message(used_bytes_ + bytes, "bytes of memory", limits_.memory_bytes),
+           kept_.header.body,
+           {}});
     used_bytes_ += bytes;
     data.resize(bytes);
     return true;

@@ -13,11 +13,9 @@
 #include "converters/decode.h"
 #include "converters/encode.h"
 #include "converters/files.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/xml.h"
 #include "tests/support/meshes.h"
 #include "tests/support/paths.h"
-#include "validators/validate.h"
+#include "tests/support/round_trip.h"
 
 namespace pstrip {
 namespace {
@@ -54,37 +52,13 @@ std::uint64_t corners_of(const Model& model) {
   return sum;
 }
 
-// Empty when the model comes back as it should.
 std::string round_trip(const Model& model, const Variant& variant) {
   EncodeOptions options;
   options.encoding = variant.encoding;
   options.keep_order = variant.keep_order;
   options.placement = variant.placement;
   options.metric = variant.metric;
-  auto strips = encode(model, options);
-  if (!strips) return "encode: " + strips.error().message;
-  Bytes file;
-  if (variant.xml) {
-    file = write_xml(*strips);
-  } else {
-    auto bytes = write_binary(*strips);
-    if (!bytes) return "write: " + bytes.error().message;
-    file = std::move(bytes).value();
-  }
-  const Report report = validate(file);
-  if (report.errors() > 0)
-    return "validate: " + std::string(report.findings()[0].code) + " " +
-           report.findings()[0].message + " at " + report.findings()[0].path;
-  const auto read = variant.xml ? read_xml(file) : read_binary(file);
-  if (!read) return "read: " + read.error().message + " at " + read.error().path;
-  if (*read != *strips) return "the file read is not the file written";
-  const Model back = decode(*read).value();
-  if (back.scene != model.scene) return "the scene changed";
-  if (variant.keep_order) return back.meshes == model.meshes ? "" : "not exact with --keep-order";
-  const Comparison c = compare(model, back, 1000);
-  if (c.likeness == Likeness::different)
-    return "different: " + (c.differences.empty() ? std::string() : c.differences[0]);
-  return {};
+  return test::round_trip(model, options, variant.xml);
 }
 
 // The way back into the format it came from.
