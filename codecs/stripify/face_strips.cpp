@@ -6,19 +6,12 @@
 
 #include "codecs/stripify/emit.h"
 #include "codecs/triangulate/triangulate.h"
+#include "core/point.h"
 
 namespace pstrip {
 namespace {
 
 // ---- Which diagonals are open
-
-using Point = std::array<double, 3>;
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 constexpr std::uint8_t kBothDiagonals = 3;
 

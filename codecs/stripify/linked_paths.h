@@ -95,9 +95,9 @@ class LinkedPaths {
     return swaps;
   }
 
-  std::vector<HalfEdge> opposite_;    // 4 a triangle, the last unused
+  std::vector<HalfEdge> opposite_;       // 4 a triangle, the last unused
   std::vector<std::uint8_t> step_cost_;  // of the edge, 4 a triangle, or empty
-  std::vector<std::uint8_t> linked_;  // a bit for each half-edge of a triangle
+  std::vector<std::uint8_t> linked_;     // a bit for each half-edge of a triangle
 };
 
 }  // namespace pstrip

@@ -3,16 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "core/point.h"
+
 namespace pstrip {
 namespace {
-
-using Point = std::array<double, 3>;
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 constexpr std::size_t kMaxEarClipping = 256;  // ear clipping is cubic at worst
 
