@@ -63,6 +63,7 @@ class EdgeSimplifier {
       attribute_errors_.resize(complex_.vertex_count());
     }
     large_.resize(complex_.vertex_count());
+    hold_.resize(complex_.vertex_count());
     for (Index v = 0; v < large_.size(); ++v)
       large_[v] = complex_.vertices[v].ring_size > kLargeRing;
     if (free_) moved_.resize(complex_.vertex_count());
@@ -89,10 +90,12 @@ class EdgeSimplifier {
     return wedges_ || !input_.group.empty() || !complex_.states[v].regular;
   }
   // Whether the edge from v to x is priced with v, as a collapse of v onto x. Where it makes no
-  // difference which end goes, it is priced with one of them: half the work.
+  // difference which end goes, it is priced with one of them: half the work. That is the one that
+  // guards would rather see go.
   bool owns(Index v, Index x) const {
     if (!free_ || wedges_) return true;
-    return is_large(v) != is_large(x) ? is_large(x) : v < x;
+    if (is_large(v) != is_large(x)) return is_large(x);
+    return hold_[v] != hold_[x] ? hold_[v] < hold_[x] : v < x;
   }
   void gather(Index v, Star& star);
   void survey(Index v, const Star& star);
@@ -127,7 +130,8 @@ class EdgeSimplifier {
   std::vector<Quadric> attribute_quadrics_;  // memoryless: what attributes demand, accumulated
   std::vector<float> attribute_errors_;      // and their constant terms
   std::vector<std::uint8_t> large_, moved_;
-  float most_error_ = kInfinity;  // squared, in the complex's units
+  std::vector<std::uint8_t> hold_;  // 1 for what came to a border, 2 for where several meet
+  float most_error_ = kInfinity;    // squared, in the complex's units
 
   Star star_, kept_star_, scratch_;
   std::vector<Index> moved_corners_;
@@ -182,6 +186,7 @@ void EdgeSimplifier::fill_heap() {
     complex_.states[v].regular =
         star_.open_edges == 0 &&
         std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
+    hold_[v] = star_.open_edges > 2 ? 2 : star_.open_edges > 0 ? 1 : 0;
     builder_->add_edges(star_);
     if (memoryless_) survey(v, star_);
   }
@@ -395,6 +400,7 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
     for (const StarEdge& other : star_.edges) complex_.states[other.vertex].regular = false;
   }
   complex_.states[p].regular &= complex_.states[q].regular;
+  hold_[p] = std::max(hold_[p], hold_[q]);
   complex_.vertices[q].key = kInfinity;
   if (has_moved) {
     complex_.points[p].position = complex_.points[p].position + shift;
