@@ -59,7 +59,7 @@ def print_tables(rows):
         print("|---" + "|---:" * (len(TABLE_SHARES) + 2) + "|")
         base = at.get((YARDSTICK, 0.05))
         for name in ordered(s for s, _ in at):
-            cells = [f"{at[name, s]['rms'] * 1e4:.3f} / {at[name, s]['hausdorff'] * 1e4:.1f}"
+            cells = [f"{at[name, s]['rms'] * 1e4:.4g} / {at[name, s]['hausdorff'] * 1e4:.3g}"
                      for s in TABLE_SHARES]  # fmt: skip
             seconds = at[name, 0.05]["seconds"]
             ratio = f"{seconds / base['seconds']:.1f}" if base and base["seconds"] > 0 else "-"
