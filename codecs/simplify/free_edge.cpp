@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 
+#include "codecs/simplify/collapse_loop.h"
 #include "codecs/simplify/complex.h"
 #include "codecs/simplify/guards.h"
 #include "codecs/simplify/initial_quadrics.h"
@@ -29,7 +30,6 @@ constexpr float kLengthShare = 1e-9f;
 constexpr float kCarriedShare = 1e-2f;
 constexpr float kForcedShare = 1;
 constexpr int kMostGuardChecks = 16;
-constexpr std::size_t kProgressInterval = 4096;
 
 float rounded_down(float error) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
@@ -140,30 +140,16 @@ class EdgeSimplifier {
 };
 
 CollapseSequence EdgeSimplifier::run(const Progress& progress) {
-  const std::uint64_t start = out_.triangles_left, target = options_.target_triangles;
-  if (start <= target) return std::move(out_);
+  if (out_.triangles_left <= options_.target_triangles) return std::move(out_);
   fill_heap();
-  out_.stop = SimplifyStop::exhausted;
-  while (!heap_->empty()) {
-    const Index q = heap_->top();
-    gather(q, star_);
-    evaluate(star_);
-    const StarEdge* const edge = choose(q, heap_->second_key());
-    if (!edge) continue;
-    collapse(q, *edge);
-    if (out_.triangles_left <= target) {
-      out_.stop = SimplifyStop::target;
-      break;
-    }
-    if (progress && out_.collapses.size() % kProgressInterval == 0 &&
-        !progress("simplify", static_cast<double>(start - out_.triangles_left) /
-                                  static_cast<double>(start - target))) {
-      out_.stop = SimplifyStop::interrupted;
-      break;
-    }
-  }
-  if (out_.stop == SimplifyStop::exhausted && out_.triangles_left > 0 && most_error_ < kInfinity)
-    out_.stop = SimplifyStop::max_error;
+  collapse_until(out_, *heap_, options_.target_triangles, most_error_ < kInfinity, progress,
+                 [&](Index q) {
+                   gather(q, star_);
+                   evaluate(star_);
+                   const StarEdge* const edge = choose(q, heap_->second_key());
+                   if (edge) collapse(q, *edge);
+                   return edge != nullptr;
+                 });
   return std::move(out_);
 }
 

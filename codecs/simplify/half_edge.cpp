@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "codecs/simplify/collapse_loop.h"
 #include "codecs/simplify/complex.h"
 #include "codecs/simplify/guards.h"
 #include "codecs/simplify/initial_quadrics.h"
@@ -32,8 +33,6 @@ constexpr float kForcedShare = 1;
 
 // Guard checks of one large ring in a row.
 constexpr int kMostGuardChecks = 16;
-
-constexpr std::size_t kProgressInterval = 4096;
 
 // The error of a vertex as it counts in the order. That of a large ring moves in powers of two, or
 // each collapse onto it would change the order of all its neighbours.
@@ -111,28 +110,14 @@ class HalfEdgeSimplifier {
 };
 
 CollapseSequence HalfEdgeSimplifier::run(const Progress& progress) {
-  const std::uint64_t start = out_.triangles_left, target = options_.target_triangles;
-  if (start <= target) return std::move(out_);
+  if (out_.triangles_left <= options_.target_triangles) return std::move(out_);
   fill_heap();
-  out_.stop = SimplifyStop::exhausted;
-  while (!heap_->empty()) {
-    const Index q = heap_->top();
-    const StarEdge* const edge = next_edge(q, heap_->second_key());
-    if (!edge) continue;
-    collapse(q, *edge);
-    if (out_.triangles_left <= target) {
-      out_.stop = SimplifyStop::target;
-      break;
-    }
-    if (progress && out_.collapses.size() % kProgressInterval == 0 &&
-        !progress("simplify", static_cast<double>(start - out_.triangles_left) /
-                                  static_cast<double>(start - target))) {
-      out_.stop = SimplifyStop::interrupted;
-      break;
-    }
-  }
-  if (out_.stop == SimplifyStop::exhausted && out_.triangles_left > 0 && most_error_ < kInfinity)
-    out_.stop = SimplifyStop::max_error;
+  collapse_until(out_, *heap_, options_.target_triangles, most_error_ < kInfinity, progress,
+                 [&](Index q) {
+                   const StarEdge* const edge = next_edge(q, heap_->second_key());
+                   if (edge) collapse(q, *edge);
+                   return edge != nullptr;
+                 });
   return std::move(out_);
 }
 
