@@ -35,6 +35,7 @@ struct SimplifyOptions {
   double max_error = -1;
   Placement placement = Placement::subset;  ///< free: the kept vertex moves where it fits best
   Metric metric = Metric::qem;
+  unsigned threads = 0;  ///< to work with, 0: one a core; the sequence does not depend on it
 };
 
 /// What becomes of one wedge that stands at a removed vertex.
