@@ -201,12 +201,12 @@ void print_text(std::ostream& out, const Report& r) {
   }
   if (r.figures.levels.empty()) return;
   out << "\n";
-  Table levels(
-      {"packet", "bytes so far", "vertices", "triangles", "strips", "vertices sent", "error"});
+  Table levels({"packet", "bytes so far", "vertices", "triangles", "strips", "vertices sent",
+                "error", "one-sided error"});
   for (const InspectedLevel& l : r.figures.levels)
     levels.add({std::to_string(l.packet), l.bytes_so_far ? grouped(l.bytes_so_far) : "-",
                 grouped(l.vertices), grouped(l.triangles), grouped(l.strips),
-                grouped(l.vertices_sent), figure(l.error)});
+                grouped(l.vertices_sent), figure(l.error), figure(l.one_sided_error)});
   levels.print(out);
   if (r.figures.strip_lengths.empty()) return;
   out << "\n";
@@ -273,7 +273,8 @@ void print_json(std::ostream& out, const Report& r) {
                                {"triangles", l.triangles},
                                {"strips", l.strips},
                                {"vertices_sent", l.vertices_sent},
-                               {"error", l.error}});
+                               {"error", l.error},
+                               {"one_sided_error", l.one_sided_error}});
   json["strip_lengths"] = Json::array();
   for (std::size_t bin = 0; bin < f.strip_lengths.size(); ++bin)
     json["strip_lengths"].push_back(
@@ -282,10 +283,10 @@ void print_json(std::ostream& out, const Report& r) {
 }
 
 void print_csv(std::ostream& out, const Report& r) {
-  out << "packet,mesh,bytes_so_far,vertices,triangles,strips,vertices_sent,error\n";
+  out << "packet,mesh,bytes_so_far,vertices,triangles,strips,vertices_sent,error,one_sided_error\n";
   for (const InspectedLevel& l : r.figures.levels)
-    out << fmt::format("{},{},{},{},{},{},{},{}\n", l.packet, l.mesh, l.bytes_so_far, l.vertices,
-                       l.triangles, l.strips, l.vertices_sent, l.error);
+    out << fmt::format("{},{},{},{},{},{},{},{},{}\n", l.packet, l.mesh, l.bytes_so_far, l.vertices,
+                       l.triangles, l.strips, l.vertices_sent, l.error, l.one_sided_error);
 }
 
 ExitCode run(const Options& options, const Streams& io) {

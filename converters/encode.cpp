@@ -104,7 +104,8 @@ Packet packet_at(const Recording& recording, Index mesh, Index first, Index vspl
           .vertices = recording.mesh.base_vertices + first + vsplits,
           .triangles = level.triangles,
           .strips = level.strips,
-          .error = level.error};
+          .error = level.error,
+          .one_sided_error = level.error};
 }
 
 // Cuts the vsplits into packets that grow with the mesh, so that each sharpens it by a like share.

@@ -46,6 +46,7 @@ Inspection inspect(const ProgressiveStrips& strips, const std::vector<std::uint6
     row.triangles = scene.triangles();
     row.strips = scene.strips();
     row.error = scene.error();
+    row.one_sided_error = scene.one_sided_error();
     row.bytes_so_far = row.packet < chunk_ends.size() ? chunk_ends[row.packet] : 0;
     out.levels.push_back(row);
   };

@@ -18,7 +18,7 @@ struct InspectedLevel {
       0;  ///< of the file up to the packet's end; 0 where there is no such thing
   std::uint64_t vertices = 0, triangles = 0, strips = 0;
   std::uint64_t vertices_sent = 0;  ///< by the degenerate-triangle-free display strips [Kim04 §4]
-  double error = 0;                 ///< of the scene, see SceneLevel
+  double error = 0, one_sided_error = 0;  ///< of the scene, see SceneLevel
 };
 
 /// What a progressive file holds and what it costs.

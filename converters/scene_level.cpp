@@ -82,7 +82,8 @@ SceneLevel::SceneLevel(const ProgressiveStrips& strips)
     vertices_ += now_[m].vertices;
     triangles_ += now_[m].triangles;
     strips_ += now_[m].strips;
-    push(m);
+    push(errors_, m);
+    push(one_sided_errors_, m);
   }
 }
 
@@ -92,19 +93,18 @@ void SceneLevel::add(const Packet& packet) {
   triangles_ = triangles_ + packet.triangles - now.triangles;
   strips_ = strips_ + packet.strips - now.strips;
   now = packet;
-  push(packet.mesh);
-  const auto is_replaced = [&](const std::pair<double, Index>& entry) {
-    return entry.first != scaled_error(now_[entry.second], scale_[entry.second]);
-  };
-  while (is_replaced(largest_.top())) largest_.pop();
+  push(errors_, packet.mesh);
+  push(one_sided_errors_, packet.mesh);
 }
 
-void SceneLevel::push(Index mesh) {
-  largest_.emplace(scaled_error(now_[mesh], scale_[mesh]), mesh);
+void SceneLevel::push(Errors& errors, Index mesh) const {
+  const auto now = [&](Index m) { return scaled_error(now_[m], scale_[m], errors.kind); };
+  errors.all.emplace(now(mesh), mesh);
+  while (errors.all.top().first != now(errors.all.top().second)) errors.all.pop();
 }
 
-double SceneLevel::scaled_error(const Packet& packet, double scale) {
-  const double error = packet.error * scale;
+double SceneLevel::scaled_error(const Packet& packet, double scale, float Packet::*kind) {
+  const double error = packet.*kind * scale;
   return error >= 0 ? error : 0;
 }
 

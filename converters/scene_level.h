@@ -31,18 +31,26 @@ class SceneLevel {
   std::uint64_t vertices() const { return vertices_; }
   std::uint64_t triangles() const { return triangles_; }
   std::uint64_t strips() const { return strips_; }
-  double error() const { return largest_.empty() ? 0 : largest_.top().first; }
+  double error() const { return errors_.largest(); }
+  double one_sided_error() const { return one_sided_errors_.largest(); }
 
   /// Of one mesh: a packet's error times the scale; 0 where that is no number.
-  static double scaled_error(const Packet& packet, double scale);
+  static double scaled_error(const Packet& packet, double scale,
+                             float Packet::*kind = &Packet::error);
 
  private:
-  void push(Index mesh);
+  /// Scaled errors of one kind, those that packets have replaced included; the top is none of
+  /// these.
+  struct Errors {
+    float Packet::*kind;
+    std::priority_queue<std::pair<double, Index>> all{};
+    double largest() const { return all.empty() ? 0 : all.top().first; }
+  };
+  void push(Errors& errors, Index mesh) const;
 
   std::vector<double> scale_;
   std::vector<Packet> now_;  ///< last packet, or base, of each mesh
-  /// Scaled errors, those that packets have replaced included; the top is none of these.
-  std::priority_queue<std::pair<double, Index>> largest_;
+  Errors errors_{&Packet::error}, one_sided_errors_{&Packet::one_sided_error};
   std::uint64_t vertices_ = 0, triangles_ = 0, strips_ = 0;
 };
 

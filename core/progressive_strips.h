@@ -102,9 +102,10 @@ struct Packet {
   Index vsplits = 0;
   Index vertices = 0, triangles = 0,
         strips = 0;  ///< of that mesh after the packet; strips with triangles
-  /// Estimated distance to the original after the packet, model units, not rising within a mesh,
-  /// 0 after its last packet.
-  float error = 0;
+  // Bounds of the distance to the full-resolution mesh after the packet, model units, not rising
+  // within a mesh, 0 after its last packet. [spec/model.md §5]
+  float error = 0;            ///< two-sided, the Hausdorff distance: what levels are chosen by
+  float one_sided_error = 0;  ///< from the full-resolution mesh to the level; at most `error`
   friend bool operator==(const Packet&, const Packet&) = default;
 };
 

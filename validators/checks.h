@@ -21,7 +21,7 @@ Check counts_representable, single_wedges_hold, semantics_differ, few_attributes
     group_materials_exist, group_entries_summed, counts_of_base, vsplits_fill, strips_fit_map,
     mesh_wedges_come, packets_hold_vsplits, packets_not_empty;
 Check rows_counted, rows_point_to_chunks, rows_describe_chunks, row_vertices, row_triangles,
-    row_strips, errors_finite, errors_fall;
+    row_strips, errors_finite, errors_fall, one_side_within_both;
 
 // checks_base.cpp: base and index map.
 Check wedge_vertices_exist, vertices_have_wedges, map_wedges_exist, symbols_allowed,

@@ -296,18 +296,29 @@ void row_strips(const Document& doc, Findings& out) {
 
 void errors_finite(const Document& doc, Findings& out) {
   for_each_level(doc, [&](Index m, std::size_t level, const Packet& packet, std::size_t row) {
-    if (!std::isfinite(packet.error) || std::signbit(packet.error))
-      out.add(level_at(doc, m, level, row), std::to_string(packet.error));
+    for (const float error : {packet.error, packet.one_sided_error})
+      if (!std::isfinite(error) || std::signbit(error))
+        out.add(level_at(doc, m, level, row), std::to_string(error));
   });
 }
 
 void errors_fall(const Document& doc, Findings& out) {
-  float last = 0;
+  Packet last;
   for_each_level(doc, [&](Index m, std::size_t level, const Packet& packet, std::size_t row) {
-    if (level > 0 && packet.error > last)
+    if (level > 0)
+      for (const auto error : {&Packet::error, &Packet::one_sided_error})
+        if (packet.*error > last.*error)
+          out.add(level_at(doc, m, level, row),
+                  std::to_string(packet.*error) + " after " + std::to_string(last.*error));
+    last = packet;
+  });
+}
+
+void one_side_within_both(const Document& doc, Findings& out) {
+  for_each_level(doc, [&](Index m, std::size_t level, const Packet& packet, std::size_t row) {
+    if (packet.one_sided_error > packet.error)
       out.add(level_at(doc, m, level, row),
-              std::to_string(packet.error) + " after " + std::to_string(last));
-    last = packet.error;
+              std::to_string(packet.one_sided_error) + " within " + std::to_string(packet.error));
   });
 }
 

@@ -103,7 +103,7 @@ class Locator {
       case Field::index:
         return chunk(type(kIndexChunk));
       case Field::row:
-        return in_payload(type(kIndexChunk), 8 + 40 * where_.element,
+        return in_payload(type(kIndexChunk), 8 + kIndexRowBytes * where_.element,
                           numbered(", row ", where_.element));
       case Field::node:
         return in_scene(&doc_.strips.scene.nodes[where_.element].name, ", node ");

@@ -294,6 +294,7 @@ class Opener {
     packet.triangles = r.triangles;
     packet.strips = r.strips;
     packet.error = r.error;
+    packet.one_sided_error = r.one_sided_error;
     return packet;
   }
 

@@ -36,11 +36,11 @@ struct FileHeader {
 /// [spec/container.md §6]
 struct IndexRow {
   std::uint64_t offset = 0;  ///< of the chunk, from the start of the file
-  std::uint64_t bytes = 0;   ///< of the whole chunk, type to CRC
+  std::uint32_t bytes = 0;   ///< of the whole chunk, type to CRC
   std::uint32_t mesh = 0;
   std::uint32_t vsplits = 0;  ///< in the chunk
   std::uint32_t vertices = 0, triangles = 0, strips = 0;
-  float error = 0;
+  float error = 0, one_sided_error = 0;
   friend bool operator==(const IndexRow&, const IndexRow&) = default;
 };
 

@@ -401,7 +401,7 @@ Result<void> BinaryParser::State::read_base(ReadIo& io) {
     return ok;
   }
   strips.bases.push_back({index, 0, 0, announced->vertices, announced->triangles, announced->strips,
-                          announced->error});
+                          announced->error, announced->one_sided_error});
   if (++row < strips.meshes.size()) return {};
   stage = row == rows.size() ? Stage::tail : Stage::packets;
   return {};
@@ -478,7 +478,8 @@ Result<void> BinaryParser::State::read_packet(ReadIo& io) {
     return ok;
   }
   strips.packets.push_back({head.mesh, head.first_vsplit, head.vsplits, announced->vertices,
-                            announced->triangles, announced->strips, announced->error});
+                            announced->triangles, announced->strips, announced->error,
+                            announced->one_sided_error});
   if (++row == rows.size()) {
     for (std::size_t m = 0; m < reached.size(); ++m)
       if (reached[m].vertices != strips.meshes[m].vertices ||

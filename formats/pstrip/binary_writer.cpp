@@ -160,9 +160,13 @@ void write_chunks(Out& out, const ProgressiveStrips& strips, const FileHeader& h
 }
 
 IndexRow row_of(const Packet& packet) {
-  return {
-      0,           0, packet.mesh, packet.vsplits, packet.vertices, packet.triangles, packet.strips,
-      packet.error};
+  return {.mesh = packet.mesh,
+          .vsplits = packet.vsplits,
+          .vertices = packet.vertices,
+          .triangles = packet.triangles,
+          .strips = packet.strips,
+          .error = packet.error,
+          .one_sided_error = packet.one_sided_error};
 }
 
 FileHeader totals_of(const ProgressiveStrips& strips) {
@@ -206,7 +210,7 @@ Result<Bytes> write_binary_unchecked(const ProgressiveStrips& strips) {
     if (extent.type != kBaseChunk && extent.type != kPacketChunk) continue;
     if (extent.type == kBaseChunk) header.base_end = extent.offset + extent.bytes;
     rows[row].offset = extent.offset;
-    rows[row++].bytes = extent.bytes;
+    rows[row++].bytes = static_cast<std::uint32_t>(extent.bytes);
     largest = std::max(largest, extent.bytes);
   }
   header.file_bytes = plan.end();

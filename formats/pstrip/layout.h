@@ -319,13 +319,15 @@ void header_fields(Io& io, H& h) {
 }
 inline constexpr std::uint64_t kHeaderBytes = 96;
 
+inline constexpr std::size_t kIndexRowBytes = 40;
+
 template <class Io, class Rows>
 void index_fields(Io& io, Rows& rows) {
   std::uint32_t count = static_cast<std::uint32_t>(rows.size());
   io.number(count);
   io.zeros(4);
   if constexpr (Io::kReads) {
-    if (count != io.in().remaining() / 40)
+    if (count != io.in().remaining() / kIndexRowBytes)
       io.in().fail(ErrorCode::corrupt, "row count contradicts the payload");
     rows.resize(io.in().error() ? 0 : count);
   }
@@ -338,6 +340,7 @@ void index_fields(Io& io, Rows& rows) {
     io.number(row.triangles);
     io.number(row.strips);
     io.number(row.error);
+    io.number(row.one_sided_error);
   }
 }
 

@@ -419,6 +419,7 @@ class Reader {
     level.triangles = attributes.index("triangles");
     level.strips = attributes.index("strips");
     level.error = attributes.number<float>("error");
+    level.one_sided_error = attributes.number<float>("one_sided_error");
   }
 
   void read_base(const XMLElement& at) {

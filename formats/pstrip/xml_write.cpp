@@ -211,6 +211,7 @@ void write_level(XmlWriter& xml, const Packet& level) {
   xml.index("triangles", level.triangles);
   xml.index("strips", level.strips);
   xml.real("error", level.error);
+  xml.real("one_sided_error", level.one_sided_error);
 }
 
 void write_base(XmlWriter& xml, const ProgressiveMesh& mesh, const BaseLevel& base) {

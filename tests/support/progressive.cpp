@@ -294,11 +294,15 @@ void make_packets(Dice& dice, const ProgressiveOptions& options, ProgressiveStri
   for (Index m = 0; m < strips.meshes.size(); ++m) {
     const auto vsplits = static_cast<Index>(strips.meshes[m].vsplits.size());
     float error = vsplits == 0 ? 0.f : 16.f;
-    strips.bases.push_back({.mesh = m, .error = error});
+    strips.bases.push_back({.mesh = m, .error = error, .one_sided_error = error / 2});
     for (Index first = 0; first < vsplits; first += options.packet_vsplits) {
       const Index n = std::min(options.packet_vsplits, vsplits - first);
       error = first + n == vsplits ? 0.f : error * static_cast<float>(1 + dice.below(8)) / 8;
-      strips.packets.push_back({.mesh = m, .first_vsplit = first, .vsplits = n, .error = error});
+      strips.packets.push_back({.mesh = m,
+                                .first_vsplit = first,
+                                .vsplits = n,
+                                .error = error,
+                                .one_sided_error = error / 2});
     }
   }
   std::ranges::stable_sort(strips.packets, std::ranges::greater{}, &Packet::error);

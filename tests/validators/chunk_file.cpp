@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "formats/pstrip/layout.h"
+
 namespace pstrip::test {
 
 ChunkFile::ChunkFile(ByteView file) {
@@ -30,8 +32,9 @@ ChunkFile& ChunkFile::settle() {
     const std::uint64_t bytes = chunk_bytes(item.payload.size());
     const bool geometry = item.type == kBaseChunk || item.type == kPacketChunk;
     if (geometry && row < rows) {
-      put("PIDX", 8 + 40 * row, offset);
-      put("PIDX", 16 + 40 * row++, bytes);
+      const std::size_t at = 8 + layout::kIndexRowBytes * row++;
+      put("PIDX", at, offset);
+      put("PIDX", at + 8, static_cast<std::uint32_t>(bytes));
     }
     offset += bytes;
     if (geometry) largest = std::max(largest, bytes);

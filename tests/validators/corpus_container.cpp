@@ -7,7 +7,7 @@ namespace {
 // Where the fields of roof()'s MESH stand; its name takes eight bytes.
 constexpr std::size_t kEncodingByte = 8, kReservedByte = 11, kPositionType = 24,
                       kPositionCount = 25;
-constexpr std::size_t kFirstRow = 8, kRowBytes = 40;
+constexpr std::size_t kFirstRow = 8, kRowBytes = 40, kRowVsplits = 16;
 constexpr std::size_t kPacketHead = 24;
 
 ChunkFile::Item chunk(const char (&type)[5], Bytes payload = {}) {
@@ -154,7 +154,8 @@ constexpr Case kCases[] = {
      }},
     {"PS1042_vsplits_of_a_row.pstrip",
      [] {
-       return recut(roof(), [](ChunkFile& f) { f.put("PIDX", kFirstRow + kRowBytes + 20, 9u); });
+       return recut(roof(),
+                    [](ChunkFile& f) { f.put("PIDX", kFirstRow + kRowBytes + kRowVsplits, 9u); });
      }},
     {"PS1050_base_of_another_mesh.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("BASE", 0, 1u); }); }},

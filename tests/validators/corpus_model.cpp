@@ -102,9 +102,25 @@ constexpr Case kCases[] = {
        });
      }},
     {"PS2026_error_negative.pstripx",
-     [] { return reworded(roof(), "error=\"0\"", "error=\"-1\""); }},
+     [] {
+       return reworded(roof(), " error=\"0\" one_sided_error=\"0\"",
+                       " error=\"-1\" one_sided_error=\"-1\"");
+     }},
+    {"PS2026_one_sided_error_infinite.pstrip",
+     [] {
+       return edited(roof(), [](ProgressiveStrips& s) {
+         s.bases[0].error = s.bases[0].one_sided_error = std::numeric_limits<float>::infinity();
+       });
+     }},
     {"PS2027_error_rises.pstrip",
      [] { return edited(roof(), [](ProgressiveStrips& s) { s.packets[0].error = 1; }); }},
+    {"PS2027_one_sided_error_rises.pstripx",
+     [] {
+       return reworded(roof(), " error=\"0.25\" one_sided_error=\"0.125\"",
+                       " error=\"0.25\" one_sided_error=\"0.25\"");
+     }},
+    {"PS2029_one_side_farther_than_both.pstrip",
+     [] { return edited(roof(), [](ProgressiveStrips& s) { s.bases[0].one_sided_error = 1; }); }},
     {"PS2030_first_falls.pstrip",
      [] { return edited_mesh(seam(), [](ProgressiveMesh& m) {
             m.faces.first = {0, 7, 6};

@@ -31,8 +31,9 @@ ProgressiveStrips roof() {
   ProgressiveStrips strips;
   strips.generator = "corpus";
   strips.meshes.push_back(std::move(mesh));
-  strips.bases = {{.error = 0.5f}};
-  strips.packets = {{.vsplits = 1, .error = 0.25f}, {.first_vsplit = 1, .vsplits = 2, .error = 0}};
+  strips.bases = {{.error = 0.5f, .one_sided_error = 0.125f}};
+  strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
+                    {.first_vsplit = 1, .vsplits = 2}};
   recount_levels(strips);
   return strips;
 }
@@ -80,8 +81,9 @@ ProgressiveStrips seam() {
   mesh.order = {{5, 4, 3, 2, 1, 0}, {7, 6, 5, 4, 3, 2, 1, 0}, {1, 2, 0}, {2, 3, 0}};
   ProgressiveStrips strips;
   strips.meshes.push_back(std::move(mesh));
-  strips.bases = {{.error = 2}};
-  strips.packets = {{.vsplits = 2, .error = 1}, {.first_vsplit = 2, .vsplits = 1, .error = 0}};
+  strips.bases = {{.error = 2, .one_sided_error = 2}};
+  strips.packets = {{.vsplits = 2, .error = 1, .one_sided_error = 0.5f},
+                    {.first_vsplit = 2, .vsplits = 1}};
   recount_levels(strips);
   set_digests(strips);
   return strips;

@@ -397,7 +397,7 @@ TEST(Binary, ConsistentPromisesOfBillionsCostNothing) {
   put_u32(mesh, counts - 4,
           kMany - static_cast<Index>(strips.meshes[0].base_map.size()) +
               strips.meshes[0].group_entries[groups - 1]);
-  put_u32(payload_of(file, kIndexChunk), 8 + 24, kMany);
+  put_u32(payload_of(file, kIndexChunk), 8 + 20, kMany);
   const std::span<std::byte> base = payload_of(file, kBaseChunk);
   for (const std::size_t count : {1, 2, 3}) put_u32(base, 4 * count, kMany);
   seal(file);

@@ -41,8 +41,9 @@ ProgressiveStrips pyramid() {
 
   ProgressiveStrips strips;
   strips.meshes.push_back(std::move(mesh));
-  strips.bases = {{.vertices = 4, .triangles = 2, .strips = 1, .error = 0.25f}};
-  strips.packets = {{.vsplits = 1, .vertices = 5, .triangles = 4, .strips = 2, .error = 0}};
+  strips.bases = {
+      {.vertices = 4, .triangles = 2, .strips = 1, .error = 0.25f, .one_sided_error = 0.25f}};
+  strips.packets = {{.vsplits = 1, .vertices = 5, .triangles = 4, .strips = 2}};
   return strips;
 }
 
