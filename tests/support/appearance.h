@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+
+#include "tests/support/rasterizer.h"
+
+// How much of a mesh's looks another one keeps.
+
+namespace pstrip::test {
+
+/// Differences between pictures of two meshes, from 0: the same. Colours over pixels that either
+/// mesh covers, on grey; the rest over those that both do.
+struct Appearance {
+  double silhouette = 0;     ///< pixels that one mesh covers alone, as a share of the original's
+  double depth = 0;          ///< root mean square, model units
+  double face_normal = 0;    ///< mean angle in degrees
+  double vertex_normal = 0;  ///< the same
+  double unlit = 0;          ///< root mean square of the texture's colours, of a range of 1
+  double face_lit = 0;       ///< of the picture lit by normals of faces
+  double vertex_lit = 0;     ///< of that lit by vertex normals
+  double structure = 0;      ///< 1 - SSIM of that one's luminance, over 8 × 8 pixels [Wang04]
+  /// Root mean square distance of the texture coordinates seen at a pixel, those that are farther
+  /// apart than kMostUv counting as that: then it is another part of the texture altogether.
+  double uv = 0;
+  /// Root mean square of the power of two by which a mesh stretches its texture more or less than
+  /// the original does at the same pixel, the mean over all directions. Where the texture is seen
+  /// from behind, or one point of it all over a triangle, it counts as kMostStretch.
+  double stretch = 0;
+};
+inline constexpr double kMostStretch = 10;
+inline constexpr double kMostUv = 0.1;
+
+/// Over one picture of each mesh for each camera.
+Appearance compare_appearance(const RenderMesh& original, const RenderMesh& other,
+                              std::span<const Texture> textures, std::span<const Camera> cameras,
+                              Index size);
+
+/// How much a map from texture coordinates to the surface stretches. [Sander01 §3] One needle in
+/// the texture decides it: see Appearance::stretch for what one sees. Triangles without area do not
+/// count.
+struct Stretch {
+  double l2 = 0;         ///< root mean square over the surface and over all directions
+  double maximum = 0;    ///< the largest anywhere
+  double collapsed = 0;  ///< share of the surface whose texture coordinates have no area: its
+                         ///< stretch has no bounds and is not in the others
+};
+Stretch stretch(const RenderMesh& mesh);
+
+}  // namespace pstrip::test
