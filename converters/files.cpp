@@ -150,7 +150,8 @@ Result<SavedFiles> save_ply(const Model& model, const std::string& path,
   note_ply_losses(model.scene, notes);
   auto bytes = write_ply(several ? one : model,
                          {.format = options.ascii ? PlyWriteOptions::Format::ascii
-                                                  : PlyWriteOptions::Format::little_endian});
+                                                  : PlyWriteOptions::Format::little_endian,
+                         .threads = options.threads});
   if (!bytes) return tl::unexpected(bytes.error());
   std::vector<Pending> files;
   files.push_back({path, std::move(bytes).value()});

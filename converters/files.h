@@ -66,8 +66,9 @@ Result<TetraMesh> load_tetra_mesh(const FileBytes& file, const Limits& limits = 
 bool holds_tetra_mesh(const FileBytes& file, const std::string& path);
 
 struct SaveOptions {
-  bool ascii = false;   ///< PLY: text instead of little-endian binary
-  bool strips = false;  ///< glTF: one primitive a strip instead of triangle lists
+  bool ascii = false;    ///< PLY: text instead of little-endian binary
+  bool strips = false;   ///< glTF: one primitive a strip instead of triangle lists
+  unsigned threads = 0;  ///< see thread_count(); the bytes are the same
 };
 
 /// What became of a save.

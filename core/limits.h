@@ -16,6 +16,8 @@ struct Limits {
   std::uint64_t string_bytes = 1u << 24;    ///< one name, comment or text value
   std::uint64_t memory_bytes = 8ull << 30;  ///< what a reader may allocate in all
   std::uint32_t xml_depth = 64;             ///< nesting of elements (also of JSON)
+  unsigned threads =
+      0;  ///< that a reader may work with, see thread_count(); the result is the same
 };
 
 /// "9 vertices, more than the limit of 8"

@@ -41,6 +41,7 @@ Result<Model> read_ply(ByteView file, const Limits& limits = {});
 struct PlyWriteOptions {
   enum class Format : std::uint8_t { ascii, little_endian, big_endian };
   Format format = Format::little_endian;
+  unsigned threads = 0;  ///< see thread_count(); the bytes are the same
 };
 
 /// Writes a model of one mesh (or of none: elements without vertices only) as PLY 1.0.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "formats/ply/ply_header.h"
+#include "formats/ply/ply_runs.h"
 
 namespace pstrip::ply {
 
@@ -37,11 +38,13 @@ struct BodyLimits {
   std::uint64_t memory_bytes = 0;
 };
 
-/// Reads elements one after the other.
+/// Reads elements one after the other; an ascii body in runs, on several threads.
 class BodyReader {
  public:
-  BodyReader(ByteView file, std::uint64_t body, Encoding encoding, const BodyLimits& limits)
-      : file_(file), position_(body), encoding_(encoding), limits_(limits) {}
+  /// Text is cut into runs of about run_bytes. What is read and what is refused depends on neither
+  /// that nor the threads.
+  BodyReader(ByteView file, std::uint64_t body, Encoding encoding, const BodyLimits& limits,
+             unsigned threads, std::size_t run_bytes);
 
   /// Whether the rows can be there at all; asked before a sink is made for them.
   /// Errors: truncated. After it, rows × bytes of a row cannot overflow.
@@ -55,10 +58,15 @@ class BodyReader {
   std::uint64_t position() const { return position_; }
 
  private:
+  bool read_in_runs(const Element& element, std::span<const Sink> sinks);
+
   ByteView file_;
   std::uint64_t position_;
   Encoding encoding_;
   BodyLimits limits_;
+  unsigned threads_;
+  std::vector<Run> runs_;   ///< empty: one thread reads all
+  std::uint64_t rows_ = 0;  ///< ascii: of the elements read
 };
 
 /// Where a property's values come from, the mirror of Sink.
@@ -83,8 +91,9 @@ struct Source {
 std::size_t expected_bytes(const Element& element, std::span<const Source> sources,
                            Encoding encoding);
 
-/// Appends element.count rows. Precondition: the values fit the property types.
+/// Appends element.count rows; text is made on up to `threads` threads. Precondition: the values
+/// fit the property types.
 void write_rows(const Element& element, std::span<const Source> sources, Encoding encoding,
-                Bytes& out);
+                unsigned threads, Bytes& out);
 
 }  // namespace pstrip::ply

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <limits>
 #include <optional>
 
+#include "core/parallel.h"
 #include "formats/ply/ply_body.h"
 #include "formats/ply/ply_numbers.h"
 #include "formats/ply/ply_rows.h"
@@ -166,18 +168,18 @@ class FaceAppender {
 template <class Values>
 class RowReader {
  public:
-  RowReader(Values& in, const Element& element, std::span<const Sink> sinks,
+  RowReader(Values& in, const Element& element, std::uint64_t rows, std::span<const Sink> sinks,
             const BodyLimits& limits)
-      : in_(in), element_(element), sinks_(sinks), limits_(limits) {
+      : in_(in), element_(element), rows_(rows), sinks_(sinks), limits_(limits) {
     for (std::size_t p = 0; p < sinks.size(); ++p)
       if (sinks[p].kind == Sink::Kind::faces)
-        faces_.emplace(*sinks[p].faces, element.count,
-                       in.most_values(size_of(element.properties[p].type)), limits.corners);
+        faces_.emplace(*sinks[p].faces, rows, in.most_values(size_of(element.properties[p].type)),
+                       limits.corners);
   }
 
   bool run() {
     const std::size_t properties = sinks_.size();
-    for (std::uint64_t row = 0; row < element_.count; ++row) {
+    for (std::uint64_t row = 0; row < rows_; ++row) {
       if (!in_.begin_row()) return false;
       for (std::size_t p = 0; p < properties; ++p)
         if (!read_property(element_.properties[p], sinks_[p], row)) return false;
@@ -254,6 +256,7 @@ class RowReader {
 
   Values& in_;
   const Element& element_;
+  std::uint64_t rows_;
   std::span<const Sink> sinks_;
   const BodyLimits& limits_;
   std::optional<FaceAppender> faces_;
@@ -332,7 +335,8 @@ Result<void> read_with(Values& in, const Element& element, std::span<const Sink>
   if constexpr (!Values::kAscii) {
     if (plain_faces) good = read_plain_faces(in, element, *sinks[0].faces, limits);
   }
-  if (Values::kAscii || !plain_faces) good = RowReader<Values>(in, element, sinks, limits).run();
+  if (Values::kAscii || !plain_faces)
+    good = RowReader<Values>(in, element, element.count, sinks, limits).run();
   if (!good) return tl::unexpected<Error>(in.error());
   position = in.offset();
   return {};
@@ -352,7 +356,93 @@ Result<void> read_binary(ByteView file, const Element& element, std::span<const 
   return {};
 }
 
+/// The rows of an element in one run of an ascii body, lists of their own.
+struct RunRows {
+  std::uint64_t position, end;  ///< of the text
+  std::uint64_t first, rows;    ///< of the element
+  FaceLists faces;
+  std::vector<ListColumn> lists;  ///< one a property
+
+  bool read(ByteView file, const Element& element, std::span<const Sink> all,
+            const BodyLimits& limits) {
+    lists.resize(all.size());
+    std::vector<Sink> sinks(all.begin(), all.end());
+    for (std::size_t p = 0; p < sinks.size(); ++p) {
+      if (sinks[p].kind == Sink::Kind::scalars) sinks[p].data += first * sinks[p].stride;
+      sinks[p].faces = &faces;
+      sinks[p].list = &lists[p];
+    }
+    AsciiValues in(file.first(end), position);
+    const bool good = RowReader<AsciiValues>(in, element, rows, sinks, limits).run();
+    position = in.offset();
+    return good;
+  }
+};
+
+/// What all runs have together.
+struct Joined {
+  std::uint64_t corners = 0, list_bytes = 0;
+};
+
+Joined sum_of(std::span<const RunRows> runs) {
+  Joined out;
+  for (const RunRows& run : runs) {
+    out.corners += run.faces.corners.size();
+    for (const ListColumn& list : run.lists) out.list_bytes += list.values.size();
+  }
+  return out;
+}
+
+void append(ListColumn& all, ListColumn&& more) {
+  all.sizes.insert(all.sizes.end(), more.sizes.begin(), more.sizes.end());
+  all.values.insert(all.values.end(), more.values.begin(), more.values.end());
+  more = {};
+}
+
+void start_bounds(FaceLists& faces) {
+  if (!faces.first.empty()) return;
+  for (std::size_t i = 0; i <= faces.corners.size(); i += 3)
+    faces.first.push_back(static_cast<Index>(i));
+}
+
+void append(FaceLists& all, FaceLists&& more) {
+  const auto before = static_cast<Index>(all.corners.size());
+  if (!all.first.empty() || !more.first.empty()) {
+    start_bounds(all);
+    start_bounds(more);
+    for (std::size_t i = 1; i < more.first.size(); ++i) all.first.push_back(before + more.first[i]);
+  }
+  all.corners.insert(all.corners.end(), more.corners.begin(), more.corners.end());
+  more = {};
+}
+
+void join(std::span<RunRows> runs, std::span<const Sink> sinks, const Joined& sum) {
+  for (std::size_t p = 0; p < sinks.size(); ++p) {
+    if (sinks[p].kind == Sink::Kind::faces) sinks[p].faces->corners.reserve(sum.corners);
+    for (RunRows& run : runs) {
+      if (sinks[p].kind == Sink::Kind::list) append(*sinks[p].list, std::move(run.lists[p]));
+      if (sinks[p].kind == Sink::Kind::faces) append(*sinks[p].faces, std::move(run.faces));
+    }
+  }
+}
+
 }  // namespace
+
+BodyReader::BodyReader(ByteView file, std::uint64_t body, Encoding encoding,
+                       const BodyLimits& limits, unsigned threads, std::size_t run_bytes)
+    : file_(file),
+      position_(body),
+      encoding_(encoding),
+      limits_(limits),
+      threads_(thread_count(threads)) {
+  // Runs do not know what the others take. A value of two characters becomes eight bytes at most,
+  // once in a run and once joined.
+  constexpr std::uint64_t kMostGrowth = 8;
+  const std::uint64_t bytes = file.size() - body;
+  if (encoding == Encoding::ascii && threads_ > 1 && bytes > run_bytes &&
+      bytes <= limits.memory_bytes / kMostGrowth)
+    runs_ = cut_into_runs(file, body, run_bytes, threads_);
+}
 
 Result<void> BodyReader::expect(const Element& element) const {
   if (element.properties.empty()) return {};
@@ -370,12 +460,37 @@ Result<void> BodyReader::read(const Element& element, std::span<const Sink> sink
   assert(sinks.size() == element.properties.size());
   if (element.properties.empty()) return {};
   if (encoding_ == Encoding::ascii) {
+    // Where runs meet a fault, all is read again in one go, which finds the first one.
+    if (read_in_runs(element, sinks)) return {};
     AsciiValues in(file_, position_);
     return read_with(in, element, sinks, limits_, position_);
   }
   return encoding_ == Encoding::little_endian
              ? read_binary<false>(file_, element, sinks, limits_, position_)
              : read_binary<true>(file_, element, sinks, limits_, position_);
+}
+
+bool BodyReader::read_in_runs(const Element& element, std::span<const Sink> sinks) {
+  const std::uint64_t first = rows_, end = rows_ + element.count;
+  rows_ = end;
+  if (runs_.empty() || end > runs_.back().rows) return false;
+  std::vector<RunRows> parts;
+  for (std::size_t i = 0; i + 1 < runs_.size(); ++i) {
+    const std::uint64_t from = std::max(first, runs_[i].rows),
+                        to = std::min(end, runs_[i + 1].rows);
+    if (from >= to) continue;
+    const std::uint64_t position = std::max(position_, runs_[i].begin);
+    parts.push_back({position, runs_[i + 1].begin, from - first, to - from, {}, {}});
+  }
+  std::atomic<bool> good{true};
+  parallel_for(threads_, parts.size(), 1, [&](std::size_t i, std::size_t) {
+    if (good && !parts[i].read(file_, element, sinks, limits_)) good = false;
+  });
+  const Joined sum = sum_of(parts);
+  if (!good || sum.corners > limits_.corners || sum.list_bytes > limits_.memory_bytes) return false;
+  join(parts, sinks, sum);
+  if (!parts.empty()) position_ = parts.back().position;
+  return true;
 }
 
 ByteView BodyReader::rest() const {

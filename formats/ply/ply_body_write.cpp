@@ -2,6 +2,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/parallel.h"
 #include "formats/ply/ply_body.h"
 #include "formats/ply/ply_numbers.h"
 #include "formats/ply/ply_rows.h"
@@ -9,38 +10,28 @@
 namespace pstrip::ply {
 namespace {
 
-/// Writes by way of a block that stays in the cache.
+/// The text of a run of rows, in memory that grows and is used again for the next run.
 class AsciiRows {
  public:
-  explicit AsciiRows(Bytes& out) : out_(out), block_(kBlockBytes) {}
-  ~AsciiRows() { flush(); }
-  AsciiRows(const AsciiRows&) = delete;
-  AsciiRows& operator=(const AsciiRows&) = delete;
-
   template <class T>
   void number(T value) {
-    if (block_.size() - used_ < kMaxNumberChars) flush();
-    char* const at = block_.data() + used_;
+    if (text_.size() - used_ < kMaxNumberChars) text_.resize(2 * text_.size() + kFirstBytes);
+    char* const at = text_.data() + used_;
     char* const end = format_number(at, value);
     *end = ' ';
     used_ += static_cast<std::size_t>(end + 1 - at);
   }
   void end_row() {
-    assert(used_ != 0);  // flush() comes before a number, never after
-    block_[used_ - 1] = '\n';
+    assert(used_ != 0);
+    text_[used_ - 1] = '\n';
   }
+  void clear() { used_ = 0; }
+  ByteView text() const { return std::as_bytes(std::span(text_.data(), used_)); }
 
  private:
-  static constexpr std::size_t kBlockBytes = 32 << 10;
+  static constexpr std::size_t kFirstBytes = 32 << 10;
 
-  void flush() {
-    const auto bytes = std::as_bytes(std::span(block_.data(), used_));
-    out_.insert(out_.end(), bytes.begin(), bytes.end());
-    used_ = 0;
-  }
-
-  Bytes& out_;
-  std::vector<char> block_;
+  std::vector<char> text_;
   std::size_t used_ = 0;
 };
 
@@ -76,10 +67,16 @@ void write_values(Rows& rows, ComponentType type, const Source& source, std::siz
   });
 }
 
+/// Rows that stand together, and for each list how many values the rows before them have.
+struct RowRange {
+  std::size_t begin = 0, end = 0;
+  std::vector<std::size_t> used;
+};
+
 template <class Rows>
-void write_all(Rows& rows, const Element& element, std::span<const Source> sources) {
-  std::vector<std::size_t> used(sources.size());  // values of the rows before
-  for (std::size_t row = 0; row < element.count; ++row) {
+void write_all(Rows& rows, const Element& element, std::span<const Source> sources,
+               RowRange range) {
+  for (std::size_t row = range.begin; row < range.end; ++row) {
     for (std::size_t p = 0; p < sources.size(); ++p) {
       const Source& source = sources[p];
       const Property& property = element.properties[p];
@@ -95,10 +92,43 @@ void write_all(Rows& rows, const Element& element, std::span<const Source> sourc
       const std::size_t count = source.size(row);
       visit_type(property.count_type,
                  [&](auto zero) { rows.number(static_cast<decltype(zero)>(count)); });
-      write_values(rows, property.type, source, used[p], count);
-      used[p] += count;
+      write_values(rows, property.type, source, range.used[p], count);
+      range.used[p] += count;
     }
     rows.end_row();
+  }
+}
+
+/// Moves to the next `rows` rows, as far as there are some.
+void advance(RowRange& range, std::size_t rows, std::span<const Source> sources,
+             std::size_t count) {
+  for (std::size_t p = 0; p < sources.size(); ++p)
+    if (sources[p].kind != Source::Kind::scalars)
+      for (std::size_t row = range.begin; row < range.end; ++row)
+        range.used[p] += sources[p].size(row);
+  range.begin = range.end;
+  range.end = std::min(count, range.begin + rows);
+}
+
+/// Run by run, some on each thread, then the texts one behind the other.
+void write_ascii(const Element& element, std::span<const Source> sources, unsigned threads,
+                 Bytes& out) {
+  constexpr std::size_t kRows = 4096, kRunsAtOnce = 32;
+  std::vector<AsciiRows> texts(kRunsAtOnce);
+  std::vector<RowRange> ranges;
+  RowRange range{0, 0, std::vector<std::size_t>(sources.size())};
+  while (range.end < element.count) {
+    ranges.clear();
+    while (range.end < element.count && ranges.size() < kRunsAtOnce) {
+      advance(range, kRows, sources, element.count);
+      ranges.push_back(range);
+    }
+    parallel_for(threads, ranges.size(), 1, [&](std::size_t i, std::size_t) {
+      texts[i].clear();
+      write_all(texts[i], element, sources, ranges[i]);
+    });
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      out.insert(out.end(), texts[i].text().begin(), texts[i].text().end());
   }
 }
 
@@ -139,7 +169,7 @@ void write_binary(const Element& element, std::span<const Source> sources, Bytes
   const std::size_t start = out.size();
   out.resize(start + expected_bytes(element, sources, Encoding::little_endian));
   BinaryRows<kSwap> rows(out.data() + start);
-  write_all(rows, element, sources);
+  write_all(rows, element, sources, {0, element.count, std::vector<std::size_t>(sources.size())});
 }
 
 }  // namespace
@@ -159,12 +189,11 @@ std::size_t expected_bytes(const Element& element, std::span<const Source> sourc
 }
 
 void write_rows(const Element& element, std::span<const Source> sources, Encoding encoding,
-                Bytes& out) {
+                unsigned threads, Bytes& out) {
   if (element.properties.empty()) return;
   if (encoding == Encoding::little_endian) return write_binary<false>(element, sources, out);
   if (encoding == Encoding::big_endian) return write_binary<true>(element, sources, out);
-  AsciiRows rows(out);
-  write_all(rows, element, sources);
+  write_ascii(element, sources, threads, out);
 }
 
 }  // namespace pstrip::ply

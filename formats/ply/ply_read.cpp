@@ -93,7 +93,8 @@ Bytes gathered(const Bytes& values, std::size_t bytes_each, std::span<const Inde
 
 class ModelReader {
  public:
-  ModelReader(ByteView file, const Limits& limits) : file_(file), limits_(limits) {}
+  ModelReader(ByteView file, const Limits& limits, std::size_t run_bytes)
+      : file_(file), limits_(limits), run_bytes_(run_bytes) {}
 
   Result<Model> run() {
     Result<Header> header = parse_header(file_, limits_);
@@ -181,7 +182,8 @@ class ModelReader {
     const std::uint64_t vertices = has_mesh_ ? element("vertex")->count : 0;
     BodyReader body(
         file_, kept_.header.body, encoding_,
-        {vertices, std::min<std::uint64_t>(limits_.corners, kMaxCount), limits_.memory_bytes});
+        {vertices, std::min<std::uint64_t>(limits_.corners, kMaxCount), limits_.memory_bytes},
+        limits_.threads, run_bytes_);
     for (Element& e : kept_.header.elements) {
       if (const auto good = body.expect(e); !good) return refuse(good.error());
       if (!make_room(e)) return false;
@@ -424,6 +426,7 @@ class ModelReader {
 
   ByteView file_;
   const Limits& limits_;
+  const std::size_t run_bytes_;
   Model model_;
   Mesh mesh_;
   Kept kept_;
@@ -440,10 +443,15 @@ class ModelReader {
 };
 
 }  // namespace
+
+Result<Model> read_ply_in_runs(ByteView file, const Limits& limits, std::size_t run_bytes) {
+  return ModelReader(file, limits, run_bytes).run();
+}
+
 }  // namespace ply
 
 Result<Model> read_ply(ByteView file, const Limits& limits) {
-  return ply::ModelReader(file, limits).run();
+  return ply::read_ply_in_runs(file, limits, ply::kRunBytes);
 }
 
 }  // namespace pstrip

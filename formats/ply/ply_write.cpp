@@ -123,7 +123,9 @@ struct NamedAttributes {
 class ModelWriter {
  public:
   ModelWriter(const Model& model, const PlyWriteOptions& options)
-      : model_(model), encoding_(static_cast<Encoding>(options.format)) {}
+      : model_(model),
+        encoding_(static_cast<Encoding>(options.format)),
+        threads_(options.threads) {}
 
   Result<Bytes> run() {
     if (model_.meshes.size() > 1) return fail(ErrorCode::bad_argument, "ply holds one mesh");
@@ -578,7 +580,7 @@ class ModelWriter {
     out.reserve(bytes);
     out.insert(out.end(), as_bytes(text).begin(), as_bytes(text).end());
     for (std::size_t e = 0; e < sources.size(); ++e)
-      write_rows(header().elements[e], sources[e], encoding_, out);
+      write_rows(header().elements[e], sources[e], encoding_, threads_, out);
     const Foreign* const rest = find_foreign(model_.scene.foreign, "ply/rest");
     if (rest != nullptr && encoding_ != Encoding::ascii)
       out.insert(out.end(), rest->data.begin(), rest->data.end());
@@ -587,6 +589,7 @@ class ModelWriter {
 
   const Model& model_;
   const Encoding encoding_;
+  const unsigned threads_;
   const Mesh* mesh_ = nullptr;
   Kept kept_;  // its header becomes the one that is written
   bool from_ply_ = false, bound_ = false, has_face_element_ = false, faces_have_texcoords_ = false;

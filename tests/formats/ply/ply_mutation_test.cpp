@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <regex>
 
 #include "formats/ply/ply.h"
+#include "formats/ply/ply_runs.h"
 #include "tests/formats/ply/ply_text.h"
 
 namespace pstrip {
@@ -79,6 +81,33 @@ std::string damaged(std::string file, std::mt19937& random) {
     }
   }
   return file;
+}
+
+// However text is cut and however many read it: the same model, or the same fault at the same
+// place.
+TEST(PlyMutation, RunsReadWhatOneReaderReads) {
+  std::mt19937 random(2);
+  int accepted = 0, refused = 0;
+  for (int i = 0; i < 6000; ++i) {
+    std::string file = damaged(kSeeds[random() % std::size(kSeeds)], random);
+    if (i % 3 == 0) file = std::regex_replace(file, std::regex("\n"), i % 2 == 0 ? "\r\n" : "\r");
+    Limits limits{.threads = 1};
+    if (i % 5 == 0) limits.corners = random() % 10;
+    if (i % 7 == 0) limits.memory_bytes = random() % 3000;
+    const auto whole = read_ply(as_bytes(file), limits);
+    limits.threads = 3;
+    for (const std::size_t run_bytes : {1, 5, 40}) {
+      const auto runs = ply::read_ply_in_runs(as_bytes(file), limits, run_bytes);
+      ASSERT_EQ(whole.has_value(), runs.has_value()) << file;
+      if (whole)
+        ASSERT_EQ(*whole, *runs) << file;
+      else
+        ASSERT_EQ(whole.error(), runs.error()) << whole.error().message << '\n' << file;
+    }
+    ++(whole ? accepted : refused);
+  }
+  EXPECT_GT(accepted, 300);
+  EXPECT_GT(refused, 500);
 }
 
 TEST(PlyMutation, WhatIsAcceptedComesBack) {

@@ -89,6 +89,17 @@ TEST(WritePly, RecoversGeneratedMeshes) {
   expect_recovered(model_of(Mesh{}));
 }
 
+TEST(WritePly, MakesTheSameTextWithAnyNumberOfThreads) {
+  Model model;
+  model.meshes.push_back(test::polygon_soup(3, 20'000, 30'000));  // several runs of rows
+  const auto text = [&](unsigned threads) {
+    return write_ply(model, {.format = PlyWriteOptions::Format::ascii, .threads = threads}).value();
+  };
+  const Bytes one = text(1);
+  EXPECT_EQ(one, text(3));
+  EXPECT_EQ(read_ply(one).value().meshes.at(0).face_count(), 30'000u);
+}
+
 TEST(WritePly, RowsAreVerticesWhereWedgesAgree) {
   Mesh mesh = test::cube(true);
   mesh.wedge_attributes.clear();
