@@ -102,6 +102,8 @@ class ByteReader {
 /// Appends little-endian fields to a growing buffer.
 class ByteWriter {
  public:
+  /// Memory for that many bytes in all, so that they are not moved while they grow.
+  void reserve(std::size_t size) { bytes_.reserve(size); }
   void u8(std::uint8_t v) { bytes_.push_back(std::byte{v}); }
   void u16(std::uint16_t v) { number(v); }
   void u32(std::uint32_t v) { number(v); }

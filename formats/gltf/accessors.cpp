@@ -1,5 +1,7 @@
 #include "formats/gltf/accessors.h"
 
+#include <algorithm>
+
 #include "formats/gltf/container.h"
 
 namespace pstrip::gltf {
@@ -19,6 +21,11 @@ Index load(const std::byte* at) {
 Index load_index(ComponentType type, const std::byte* at) {
   if (type == ComponentType::u8) return load<std::uint8_t>(at);
   return type == ComponentType::u16 ? load<std::uint16_t>(at) : load<std::uint32_t>(at);
+}
+
+template <class T>
+void load_all(const Bytes& bytes, std::vector<Index>& out) {
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = load<T>(bytes.data() + k * sizeof(T));
 }
 
 bool is_index_type(ComponentType type) {
@@ -176,14 +183,18 @@ Result<std::vector<Index>> read_indices(Data& data, const Document& document, In
                 pointer("accessors", i));
   const Result<Bytes> bytes = data.elements(i);
   if (!bytes) return tl::unexpected(bytes.error());
-  const std::size_t size = size_of(accessor.type);
-  std::vector<Index> out(bytes->size() / size);
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    out[k] = load_index(accessor.type, bytes->data() + k * size);
-    if (out[k] >= vertices)
-      return fail(ErrorCode::corrupt, "index " + std::to_string(k) + " is past the vertices",
-                  kNoOffset, pointer("accessors", i));
-  }
+  std::vector<Index> out(bytes->size() / size_of(accessor.type));
+  if (accessor.type == ComponentType::u8)
+    load_all<std::uint8_t>(*bytes, out);
+  else if (accessor.type == ComponentType::u16)
+    load_all<std::uint16_t>(*bytes, out);
+  else
+    load_all<std::uint32_t>(*bytes, out);
+  const auto wrong = std::ranges::find_if(out, [&](Index index) { return index >= vertices; });
+  if (wrong != out.end())
+    return fail(ErrorCode::corrupt,
+                "index " + std::to_string(wrong - out.begin()) + " is past the vertices", kNoOffset,
+                pointer("accessors", i));
   return out;
 }
 

@@ -115,6 +115,7 @@ Result<Bytes> join(std::string_view json, ByteView bin, ByteView other_chunks) {
   if (total > std::numeric_limits<std::uint32_t>::max())
     return fail(ErrorCode::over_limit, "a .glb file cannot reach 4 GiB");
   ByteWriter out;
+  out.reserve(total);
   for (const std::uint64_t word : {std::uint64_t{kMagic}, std::uint64_t{2}, total})
     out.u32(static_cast<std::uint32_t>(word));
   out.u32(static_cast<std::uint32_t>(padded(json.size())));

@@ -121,6 +121,7 @@ class GroupWriter {
   }
   std::vector<IndexList> triangles(std::span<const Index> faces) {
     IndexList out{Mode::triangles, {}};
+    out.indices.reserve(3 * faces.size());
     each_triangle(faces, [&](const Triangle& t) {
       out.indices.insert(out.indices.end(), t.begin(), t.end());
     });

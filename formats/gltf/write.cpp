@@ -90,8 +90,12 @@ void add_bounds(json& accessor, Attribute attribute) {
   accessor["max"] = json::array();
   for (std::size_t c = 0; c < attribute.count; ++c) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = 0; i < attribute.elements(); ++i) {
-      const double value = component(attribute, i, c);
+    const bool is_float = attribute.type == ComponentType::f32;
+    const std::byte* at = attribute.data.data() + c * size_of(attribute.type);
+    for (std::size_t i = 0; i < attribute.elements(); ++i, at += attribute.element_bytes()) {
+      float single = 0;
+      if (is_float) std::memcpy(&single, at, sizeof single);
+      const double value = is_float ? single : component(attribute, i, c);
       if (!std::isfinite(value)) continue;
       low = std::min(low, value);
       high = std::max(high, value);
@@ -99,6 +103,23 @@ void add_bounds(json& accessor, Attribute attribute) {
     accessor["min"].push_back(number(low <= high ? low : 0));
     accessor["max"].push_back(number(low <= high ? high : 0));
   }
+}
+
+template <class T>
+std::vector<T> narrowed(const std::vector<Index>& indices) {
+  std::vector<T> out(indices.size());
+  std::ranges::transform(indices, out.begin(), [](Index i) { return static_cast<T>(i); });
+  return out;
+}
+
+/// About what a model's meshes take in the buffer.
+std::size_t expected_bytes(const Model& model) {
+  std::size_t bytes = 0;
+  for (const Mesh& mesh : model.meshes) {
+    bytes += mesh.wedge_count() * mesh.position.element_bytes() + 4 * mesh.corners.size();
+    for (const Attribute& attribute : mesh.wedge_attributes) bytes += attribute.data.size();
+  }
+  return bytes;
 }
 
 /// Elements at multiples of four bytes, as are the columns of matrices.
@@ -144,6 +165,7 @@ class AssetWriter {
   }
 
   Result<GltfFiles> write() {
+    bin_.reserve(expected_bytes(model_));
     if (kept_) {
       root_ = std::move(kept_->root);
       bin_.bytes(find_foreign(model_.scene, kBinKey));
@@ -219,14 +241,12 @@ class AssetWriter {
       ByteWriter& stream = index_streams_[type];
       if (stream.size() > 0) accessor["byteOffset"] = stream.size();
       index_accessors_.emplace_back(accessors_.size(), type);
-      for (const Index i : indices) {
-        if (type == ComponentType::u8)
-          stream.u8(static_cast<std::uint8_t>(i));
-        else if (type == ComponentType::u16)
-          stream.u16(static_cast<std::uint16_t>(i));
-        else
-          stream.u32(i);
-      }
+      if (type == ComponentType::u8)
+        stream.array<std::uint8_t>(narrowed<std::uint8_t>(indices));
+      else if (type == ComponentType::u16)
+        stream.array<std::uint16_t>(narrowed<std::uint16_t>(indices));
+      else
+        stream.array<Index>(indices);
     }
     accessors_.push_back(std::move(accessor));
     return accessors_.size() - 1;
