@@ -6,340 +6,447 @@
 #include "codecs/vsplit/record.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <numeric>
+
+#include "codecs/vsplit/in_order.h"
+#include "core/touch.h"
 
 namespace pstrip {
 namespace {
 
-// What one collapse (or one lone vertex) took away, fine to coarse.
-struct Removal {
-  Index vertex;
-  Index parent;  // kNone: on its own
-  Index wedges, carried, places;
+// An entry of the map with all that a collapse asks of it: entries are visited in an order that
+// jumps across the mesh, so that what counts is how many cache lines a visit takes.
+struct Entry {
+  Index wedge;         // that it stands for; kRestart between strips
+  Index next;          // the next entry that holds the same wedge itself; kNone: none
+  Index window;        // of the triangle that starts here: kShown, kNoTriangle, or what closed it
+  std::int8_t symbol;  // distance to the entry that it repeats; 0: it holds its wedge itself
 };
+static_assert(sizeof(Entry) == 16);
 
-void append_element(const Attribute& from, Index i, Bytes& to) {
-  const ByteView element = from.element(i);
-  to.insert(to.end(), element.begin(), element.end());
-}
+constexpr Index kShown = kNone;
+constexpr Index kNoTriangle = kNone - 1;
+constexpr Index kRemoved = kNone - 1;  // instead of a wedge's first entry
 
+// Lists are written fine to coarse and turned round in the end.
 class Recorder {
  public:
-  Recorder(const Mesh& mesh, const StripMap& strips, MapEncoding encoding, Placement placement)
-      : mesh_(mesh),
-        position_(mesh.position),
-        placement_(placement),
-        resolved_(strips.entries),
-        map_(strips.entries),
-        symbols_(encoding == MapEncoding::offset_difference) {
-    wedge_vertex_.resize(mesh.wedge_count());
-    for (Index w = 0; w < mesh.wedge_count(); ++w) wedge_vertex_[w] = mesh.vertex_of(w);
-    wedge_alive_.assign(mesh.wedge_count(), 1);
-    find_strips();
-    if (symbols_) encode_repetitions();
-    list_entries();
-    count_triangles();
-  }
-
+  Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSequence& sequence,
+           MapEncoding encoding);
   void remove_lone_vertices();
-  void collapse(const Collapse& collapse, std::span<const WedgeMove> moves);
-  /// The kept vertex of the last collapse goes there.
-  void place(Index vertex, std::span<const double> position);
-  Recording finish(const StripMap& strips, MapEncoding encoding) &&;
+  void collapse_all();
+  Recording finish(const StripMap& strips) &&;
 
  private:
-  void find_strips();
+  // New numbers of the source's; with single wedges both are the same and `wedge_to` is empty.
+  struct Numbering {
+    std::vector<Index> vertex_to, wedge_to;
+  };
+
+  Index vertex_of(Index wedge) const {
+    return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge];
+  }
+  bool stands_at(const Entry& entry, Index vertex) const {
+    if (wedge_vertex_.empty()) return entry.wedge == vertex;
+    return entry.wedge != kRestart && wedge_vertex_[entry.wedge] == vertex;
+  }
+  Entry& entry(Index i) { return entries_[std::size_t{i} + kMargin]; }
+
+  void copy_map(std::span<const Index> map);
   void encode_repetitions();
   void list_entries();
-  void count_triangles();
-  bool is_triangle(std::size_t window) const;
-  void revisit_windows(std::size_t entry);
-  void rewrite(Index entry, Index to);
-  void change_resolved(Index entry, Index to);
-  void visit_entries_of(Index wedge);
-  void push(Index vertex, Index parent, Index wedges, Index carried, Index places, float error);
-  void note_removed_wedge(Index wedge, std::vector<Index>& places);
+  void find_triangles();
+  void fetch(std::span<const WedgeMove> moves);
+  void collapse(const Collapse& collapse, std::span<const WedgeMove> moves);
+  void carry(Index wedge, Index kept);
+  void remove_wedge(Index wedge, Index replacement);
+  void place(Index vertex, std::span<const double> position);
+  void rewrite(Index at, Index to);
+  void change_wedge(Index at, Index to, Index vertex);
+  void close_windows(Entry* entry, Index vertex);
+  void close(Entry& window);
+  void begin_removal(Index vertex, Index parent, float error);
+  void end_removal();
+  void turn_lists_round();
+  void count_strips();
+  Numbering number_all();
+  void write_base(const Numbering& numbers);
+
+  static constexpr std::size_t kFetched = 32;  // moves at a time
+  // Restarts before and behind the map, so that neighbours of entries may be looked at unasked.
+  static constexpr std::size_t kMargin = 2;
 
   const Mesh& mesh_;
-  Attribute position_;  // where vertices stand, or stood when they were removed
-  Placement placement_;
-  std::vector<Index> resolved_;  // wedge at every entry
-  std::vector<Index> map_;       // the same with symbols
-  bool symbols_;
-  std::vector<Index> wedge_vertex_;
-  std::vector<std::uint8_t> wedge_alive_;
-  std::vector<Index> strip_of_;         // per entry; kNone at restarts
-  std::vector<std::uint8_t> triangle_;  // per window (by first entry)
-  std::vector<Index> strip_triangles_;
-  std::vector<Index> head_, next_;  // entries that hold each wedge itself, as lists
-  Index triangles_ = 0, strips_ = 0;
-  std::vector<std::uint8_t> vertex_alive_;
+  const CollapseSequence& sequence_;
+  const bool moves_kept_;
+  const bool symbols_;
+  Attribute moved_;  // with free placement: where vertices stand, or stood when they were removed
+  std::vector<Entry> entries_;
+  std::vector<Index> wedge_vertex_;  // empty as long as wedge i is vertex i
+  std::vector<Index> first_entry_;   // of each wedge that holds it itself; kNone, kRemoved
+  Index triangles_ = 0;
+  float error_ = 0;
   std::vector<Index> pending_;
 
-  std::vector<Removal> removals_;
-  std::vector<LevelCounts> counts_;                      // before each removal, fine to coarse
-  std::vector<Index> removed_wedges_, removed_carried_;  // per removal, in record order
-  std::vector<Index> wedge_places_, places_;             // per removed wedge
-  Bytes parent_positions_;  // before each removal, fine to coarse; with free placement
-  float error_ = 0;
+  Recording out_;
+  std::vector<Index> removed_vertices_, removed_wedges_;
 };
 
-void Recorder::find_strips() {
-  strip_of_.assign(map_.size(), kNone);
-  Index strip = 0;
-  for (std::size_t i = 0; i < map_.size(); ++i) {
-    if (map_[i] == kRestart)
-      ++strip;
-    else
-      strip_of_[i] = strip;
-  }
-  strip_triangles_.assign(std::size_t{strip} + 1, 0);
+Recorder::Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSequence& sequence,
+                   MapEncoding encoding)
+    : mesh_(mesh),
+      sequence_(sequence),
+      moves_kept_(!sequence.placements.empty()),
+      symbols_(encoding == MapEncoding::offset_difference),
+      wedge_vertex_(mesh.wedge_vertex) {
+  if (moves_kept_) moved_ = mesh.position;
+  copy_map(strips.entries);
+  if (symbols_) encode_repetitions();
+  list_entries();
+  find_triangles();
+  out_.mesh.encoding = encoding;
+  out_.mesh.placement = moves_kept_ ? Placement::free : Placement::subset;
+  const std::size_t vsplits = mesh.vertex_count();  // all but those of the base, most of them
+  removed_vertices_.reserve(vsplits);
+  out_.levels.reserve(vsplits + 1);
+  out_.mesh.vsplits.reserve(vsplits);
+  out_.mesh.wedge_places.reserve(mesh.wedge_count());
+  out_.mesh.places.reserve(strips.entries.size());
+  if (moves_kept_) out_.mesh.parent_position.reserve(mesh.position.data.size());
+}
+
+void Recorder::copy_map(std::span<const Index> map) {
+  entries_.reserve(map.size() + 2 * kMargin);
+  entries_.assign(kMargin, {kRestart, kNone, kNoTriangle, 0});
+  for (const Index wedge : map) entries_.push_back({wedge, kNone, kNoTriangle, 0});
+  entries_.insert(entries_.end(), kMargin, {kRestart, kNone, kNoTriangle, 0});
 }
 
 // "All swap operations can be encoded with symbol R-2" [Kim04 §3.4]; a doubled start with R-1.
 void Recorder::encode_repetitions() {
-  for (std::size_t i = 1; i < map_.size(); ++i) {
-    if (map_[i] == kRestart) continue;
-    if (i >= 2 && strip_of_[i - 2] == strip_of_[i] && resolved_[i - 2] == resolved_[i])
-      map_[i] = kSameAsMinus2;
-    else if (strip_of_[i - 1] == strip_of_[i] && resolved_[i - 1] == resolved_[i])
-      map_[i] = kSameAsMinus1;
+  for (std::size_t i = kMargin; i < entries_.size() - kMargin; ++i) {
+    Entry* e = &entries_[i];
+    if (e->wedge == kRestart || e[-1].wedge == kRestart) continue;
+    if (e[-2].wedge == e->wedge)
+      e->symbol = -2;
+    else if (e[-1].wedge == e->wedge)
+      e->symbol = -1;
   }
 }
 
 void Recorder::list_entries() {
-  head_.assign(mesh_.wedge_count(), kNone);
-  next_.assign(map_.size(), kNone);
-  for (std::size_t i = map_.size(); i-- > 0;) {
-    if (!is_wedge(map_[i])) continue;
-    next_[i] = head_[map_[i]];
-    head_[map_[i]] = static_cast<Index>(i);
+  first_entry_.assign(mesh_.wedge_count(), kNone);
+  for (std::size_t i = entries_.size() - kMargin; i-- > kMargin;) {
+    Entry& e = entries_[i];
+    if (e.wedge == kRestart || e.symbol != 0) continue;
+    e.next = first_entry_[e.wedge];
+    first_entry_[e.wedge] = static_cast<Index>(i - kMargin);
   }
 }
 
-bool Recorder::is_triangle(std::size_t window) const {
-  const Index a = wedge_vertex_[resolved_[window]], b = wedge_vertex_[resolved_[window + 1]],
-              c = wedge_vertex_[resolved_[window + 2]];
-  return a != b && b != c && a != c;
-}
-
-void Recorder::count_triangles() {
-  triangle_.assign(map_.size(), 0);
-  for (std::size_t i = 0; i + 2 < map_.size(); ++i) {
-    if (strip_of_[i] == kNone || strip_of_[i + 2] != strip_of_[i] || !is_triangle(i)) continue;
-    triangle_[i] = 1;
+void Recorder::find_triangles() {
+  for (std::size_t i = kMargin; i < entries_.size() - kMargin; ++i) {
+    Entry* e = &entries_[i];
+    if (e->wedge == kRestart || e[1].wedge == kRestart || e[2].wedge == kRestart) continue;
+    const Index a = vertex_of(e->wedge), b = vertex_of(e[1].wedge), c = vertex_of(e[2].wedge);
+    if (a == b || b == c || a == c) continue;
+    e->window = kShown;
     ++triangles_;
-    if (strip_triangles_[strip_of_[i]]++ == 0) ++strips_;
   }
 }
 
-// A collapse only ever makes triangles degenerate, so a window that is not one need not be looked
-// at.
-void Recorder::revisit_windows(std::size_t entry) {
-  for (std::size_t i = entry >= 2 ? entry - 2 : 0; i <= entry; ++i) {
-    if (triangle_[i] == 0 || is_triangle(i)) continue;
-    triangle_[i] = 0;
-    --triangles_;
-    if (--strip_triangles_[strip_of_[i]] == 0) --strips_;
-  }
+void Recorder::close(Entry& window) {
+  if (window.window != kShown) return;
+  window.window = static_cast<Index>(removed_vertices_.size() - 1);
+  --triangles_;
 }
 
-// Gives the entry and all whose chains end at it another wedge.
-void Recorder::change_resolved(Index entry, Index to) {
-  pending_.assign(1, entry);
-  resolved_[entry] = to;
-  for (std::size_t k = 0; k < pending_.size(); ++k) {
-    const Index at = pending_[k];
+// An entry has come to stand at `vertex`: the triangles around it vanish that do so already. What
+// vanished once does not come back.
+void Recorder::close_windows(Entry* entry, Index vertex) {
+  const bool far_before = stands_at(entry[-2], vertex), before = stands_at(entry[-1], vertex),
+             after = stands_at(entry[1], vertex), far_after = stands_at(entry[2], vertex);
+  if (far_before || before) close(entry[-2]);
+  if (before || after) close(entry[-1]);
+  if (after || far_after) close(entry[0]);
+}
+
+// Gives the entry and all whose chains end at it another wedge, or the same at another vertex.
+void Recorder::change_wedge(Index at, Index to, Index vertex) {
+  pending_.clear();
+  for (;;) {
+    Entry* const e = &entry(at);
+    e->wedge = to;
     if (symbols_)
-      for (const int d : {-2, -1, 1, 2}) {
-        const std::size_t from = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) - d);
-        if (from >= map_.size() || map_[from] != symbol_of(d)) continue;
-        resolved_[from] = to;
-        pending_.push_back(static_cast<Index>(from));
-      }
+      for (const int d : {-2, -1, 1, 2})
+        if (e[-d].symbol == d) pending_.push_back(at - static_cast<Index>(d));
+    close_windows(e, vertex);
+    if (pending_.empty()) return;
+    at = pending_.back();
+    pending_.pop_back();
   }
-  for (const Index at : pending_) revisit_windows(at);
-}
-
-void Recorder::visit_entries_of(Index wedge) {
-  for (Index e = head_[wedge]; e != kNone; e = next_[e]) change_resolved(e, wedge);
 }
 
 // Entry of a removed wedge: takes a symbol when the wedge that replaces it stands within two
 // places, the wedge itself otherwise (common edge and spiral, [Kim04 §3.4]).
 //
-// No cycle can arise: an entry that resolves to `to` at this moment has a chain of entries that
+// No cycle can arise: an entry that stands for `to` at this moment has a chain of entries that
 // all do, and this one does not yet.
-void Recorder::rewrite(Index entry, Index to) {
-  map_[entry] = to;
-  if (symbols_)
-    for (const int d : {-1, 1, -2, 2}) {
-      const std::size_t at = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(entry) + d);
-      if (at >= map_.size() || strip_of_[at] != strip_of_[entry] || resolved_[at] != to) continue;
-      map_[entry] = symbol_of(d);
-      break;
-    }
-  if (map_[entry] == to) {
-    next_[entry] = head_[to];
-    head_[to] = entry;
+void Recorder::rewrite(Index at, Index to) {
+  Entry* const e = &entry(at);
+  e->symbol = 0;
+  if (symbols_) {
+    if (e[-1].wedge == to)
+      e->symbol = -1;
+    else if (e[1].wedge == to)
+      e->symbol = 1;
+    else if (e[-2].wedge == to && e[-1].wedge != kRestart)
+      e->symbol = -2;
+    else if (e[2].wedge == to && e[1].wedge != kRestart)
+      e->symbol = 2;
   }
-  change_resolved(entry, to);
+  if (e->symbol == 0) {
+    e->next = first_entry_[to];
+    first_entry_[to] = at;
+  }
+  change_wedge(at, to, vertex_of(to));
 }
 
-void Recorder::note_removed_wedge(Index wedge, std::vector<Index>& places) {
-  wedge_alive_[wedge] = 0;
-  removed_wedges_.push_back(wedge);
-  std::ranges::sort(places);
-  wedge_places_.push_back(static_cast<Index>(places.size()));
-  places_.insert(places_.end(), places.begin(), places.end());
-}
-
-void Recorder::push(Index vertex, Index parent, Index wedges, Index carried, Index places,
-                    float error) {
-  if (placement_ == Placement::free)
-    append_element(position_, parent == kNone ? vertex : parent, parent_positions_);
-  removals_.push_back({vertex, parent, wedges, carried, places});
-  counts_.push_back({triangles_, strips_, error_});
+void Recorder::begin_removal(Index vertex, Index parent, float error) {
+  if (moves_kept_) {
+    const ByteView stood = moved_.element(parent == kNone ? vertex : parent);
+    out_.mesh.parent_position.insert(out_.mesh.parent_position.end(), stood.begin(), stood.end());
+  }
+  removed_vertices_.push_back(vertex);
+  out_.mesh.vsplits.push_back({parent, 0, 0, 0});
+  out_.levels.push_back({triangles_, 0, error_});
   error_ = std::max(error_, error);
 }
 
 void Recorder::remove_lone_vertices() {
-  std::vector<std::uint8_t> used(mesh_.vertex_count(), 0);
-  for (const Index w : resolved_)
-    if (w != kRestart) used[wedge_vertex_[w]] = 1;
+  std::vector<bool> used(mesh_.vertex_count());
+  for (const Entry& e : entries_)
+    if (e.wedge != kRestart) used[vertex_of(e.wedge)] = true;
+  if (std::ranges::find(used, false) == used.end()) return;
   std::vector<Index> first(std::size_t{mesh_.vertex_count()} + 1, 0), wedges(mesh_.wedge_count());
-  for (const Index v : wedge_vertex_) ++first[v + 1];
+  for (Index w = 0; w < mesh_.wedge_count(); ++w) ++first[vertex_of(w) + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<Index> at(first.begin(), first.end() - 1);
-  for (Index w = 0; w < mesh_.wedge_count(); ++w) wedges[at[wedge_vertex_[w]]++] = w;
-  std::vector<Index> no_places;
-  vertex_alive_.assign(mesh_.vertex_count(), 1);
+  for (Index w = 0; w < mesh_.wedge_count(); ++w) wedges[at[vertex_of(w)]++] = w;
   for (Index v = mesh_.vertex_count(); v-- > 0;) {
     if (used[v]) continue;
-    vertex_alive_[v] = 0;
-    push(v, kNone, first[v + 1] - first[v], 0, 0, 0);
-    for (Index k = first[v]; k < first[v + 1]; ++k) note_removed_wedge(wedges[k], no_places);
+    begin_removal(v, kNone, 0);
+    for (Index k = first[v]; k < first[v + 1]; ++k) remove_wedge(wedges[k], kNone);
+    end_removal();
+  }
+}
+
+// Touches what the next moves will ask for.
+void Recorder::fetch(std::span<const WedgeMove> moves) {
+  std::array<Index, kFetched> at;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    at[i] = first_entry_[moves[i].from];
+    if (moves[i].to != kNone) touch(first_entry_[moves[i].to]);
+  }
+  constexpr int kSteps = 3;  // lists of entries are hardly ever longer
+  for (int step = 0; step < kSteps; ++step)
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      if (at[i] >= kRemoved) continue;
+      const Entry* const e = &entry(at[i]);
+      touch(e[-2].wedge);
+      touch(e[2].wedge);
+      at[i] = e->next;
+    }
+}
+
+void Recorder::collapse_all() {
+  std::size_t move = 0, fetched = 0;
+  for (std::size_t i = 0; i < sequence_.collapses.size(); ++i) {
+    const Collapse& c = sequence_.collapses[i];
+    if (move >= fetched) {
+      fetch(std::span(sequence_.moves)
+                .subspan(move, std::min(kFetched, sequence_.moves.size() - move)));
+      fetched = move + kFetched;
+    }
+    collapse(c, std::span(sequence_.moves).subspan(move, c.moves));
+    move += c.moves;
+    if (moves_kept_) place(c.kept, std::span(sequence_.placements).subspan(3 * i, 3));
   }
 }
 
 void Recorder::collapse(const Collapse& collapse, std::span<const WedgeMove> moves) {
-  assert(vertex_alive_[collapse.removed] && vertex_alive_[collapse.kept]);
-  vertex_alive_[collapse.removed] = 0;
-  const std::size_t record = removals_.size();
-  push(collapse.removed, collapse.kept, 0, 0, 0, collapse.error);
-  std::vector<Index> places;
+  begin_removal(collapse.removed, collapse.kept, collapse.error);
   for (const WedgeMove& move : moves) {
-    if (!wedge_alive_[move.from]) continue;
-    const bool carried = move.to == kNone && head_[move.from] != kNone;
-    if (carried) {
-      wedge_vertex_[move.from] = collapse.kept;
-      visit_entries_of(move.from);
-      removed_carried_.push_back(move.from);
-      ++removals_[record].carried;
-      continue;
-    }
-    places.clear();
-    for (Index e = head_[move.from]; e != kNone; e = next_[e]) places.push_back(e);
-    note_removed_wedge(move.from, places);
-    for (const Index e : places) rewrite(e, move.to);
-    ++removals_[record].wedges;
-    removals_[record].places += static_cast<Index>(places.size());
+    const Index first = first_entry_[move.from];
+    if (first == kRemoved) continue;
+    if (move.to == kNone && first != kNone)
+      carry(move.from, collapse.kept);
+    else
+      remove_wedge(move.from, move.to);
   }
+  end_removal();
+}
+
+// The wedge keeps its entries and stands at another vertex.
+void Recorder::carry(Index wedge, Index kept) {
+  if (wedge_vertex_.empty()) {
+    wedge_vertex_.resize(mesh_.wedge_count());
+    std::iota(wedge_vertex_.begin(), wedge_vertex_.end(), Index{0});
+  }
+  wedge_vertex_[wedge] = kept;
+  for (Index e = first_entry_[wedge]; e != kNone; e = entry(e).next) change_wedge(e, wedge, kept);
+  out_.mesh.carried.push_back(wedge);
+  ++out_.mesh.vsplits.back().carried;
+}
+
+// Entries of the wedge go over to its replacement; kNone for a wedge that has none.
+void Recorder::remove_wedge(Index wedge, Index replacement) {
+  std::vector<Index>& places = out_.mesh.places;
+  const std::size_t first = places.size();
+  for (Index e = first_entry_[wedge]; e != kNone; e = entry(e).next) places.push_back(e);
+  first_entry_[wedge] = kRemoved;
+  if (places.size() - first > 1)
+    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.end());
+  for (std::size_t i = first; i < places.size(); ++i) rewrite(places[i], replacement);
+  const auto count = static_cast<Index>(places.size() - first);
+  removed_wedges_.push_back(wedge);
+  out_.mesh.wedge_places.push_back(count);
+  Vsplit& vsplit = out_.mesh.vsplits.back();
+  ++vsplit.wedges;
+  vsplit.places += count;
 }
 
 void Recorder::place(Index vertex, std::span<const double> position) {
-  for (std::size_t c = 0; c < std::min<std::size_t>(3, position_.count); ++c)
-    set_component(position_, vertex, c, position[c]);
+  for (std::size_t c = 0; c < std::min<std::size_t>(3, moved_.count); ++c)
+    set_component(moved_, vertex, c, position[c]);
 }
 
-Attribute in_order(const Attribute& from, std::span<const Index> order) {
-  Attribute out{from.semantic, from.type, from.count, from.normalized, {}};
-  out.data.reserve(from.data.size());
-  for (const Index i : order) append_element(from, i, out.data);
-  return out;
+void turn_last_round(std::vector<Index>& list, Index last) {
+  std::reverse(list.end() - static_cast<std::ptrdiff_t>(last), list.end());
 }
 
-Recording Recorder::finish(const StripMap& strips, MapEncoding encoding) && {
-  Recording out;
-  ProgressiveMesh& mesh = out.mesh;
+// Within a record the lists are in order; see turn_lists_round().
+void Recorder::end_removal() {
+  ProgressiveMesh& mesh = out_.mesh;
+  const Vsplit& vsplit = mesh.vsplits.back();
+  turn_last_round(removed_wedges_, vsplit.wedges);
+  turn_last_round(mesh.wedge_places, vsplit.wedges);
+  turn_last_round(mesh.carried, vsplit.carried);
+  turn_last_round(mesh.places, vsplit.places);
+}
+
+void Recorder::turn_lists_round() {
+  ProgressiveMesh& mesh = out_.mesh;
+  out_.levels.push_back({triangles_, 0, error_});
+  std::ranges::reverse(out_.levels);
+  std::ranges::reverse(mesh.vsplits);
+  for (auto* list :
+       {&removed_vertices_, &removed_wedges_, &mesh.wedge_places, &mesh.carried, &mesh.places})
+    std::ranges::reverse(*list);
+  const std::size_t bytes = moved_.element_bytes();
+  Bytes& positions = mesh.parent_position;
+  if (positions.empty()) return;
+  for (std::size_t low = 0, high = positions.size() - bytes; low < high;
+       low += bytes, high -= bytes)
+    std::swap_ranges(positions.begin() + static_cast<std::ptrdiff_t>(low),
+                     positions.begin() + static_cast<std::ptrdiff_t>(low + bytes),
+                     positions.begin() + static_cast<std::ptrdiff_t>(high));
+}
+
+// A strip shows from the level on that has the last of its triangles to vanish.
+void Recorder::count_strips() {
+  std::vector<LevelCounts>& levels = out_.levels;  // first, how many strips more each level shows
+  const Index vsplits = static_cast<Index>(levels.size() - 1);
+  Index first_shown = kNone;
+  for (const Entry& e : entries_) {
+    if (e.window == kShown)
+      first_shown = 0;
+    else if (e.window != kNoTriangle)
+      first_shown = std::min(first_shown, vsplits - e.window);
+    if (e.wedge != kRestart || first_shown == kNone) continue;
+    ++levels[first_shown].strips;
+    first_shown = kNone;
+  }
+  for (std::size_t i = 1; i < levels.size(); ++i) levels[i].strips += levels[i - 1].strips;
+}
+
+// In order of appearance: the base in that of its map, then what stands nowhere in it, then what
+// the records bring. Numbers parents and carried wedges, too.
+Recorder::Numbering Recorder::number_all() {
+  ProgressiveMesh& mesh = out_.mesh;
+  Numbering numbers{std::vector<Index>(mesh.vertices, kNone), {}};
+  if (!mesh.single_wedges) numbers.wedge_to.assign(mesh.wedges, kNone);
+  out_.vertex_from.reserve(mesh.vertices);
+  out_.wedge_from.reserve(mesh.single_wedges ? 0 : mesh.wedges);
+  const auto number = [](Index i, std::vector<Index>& to, std::vector<Index>& from) {
+    if (to[i] != kNone) return;
+    to[i] = static_cast<Index>(from.size());
+    from.push_back(i);
+  };
+  const auto number_wedge = [&](Index wedge) {
+    if (!mesh.single_wedges) number(wedge, numbers.wedge_to, out_.wedge_from);
+    number(vertex_of(wedge), numbers.vertex_to, out_.vertex_from);
+  };
+  for (const Entry& e : entries_)
+    if (e.wedge != kRestart) number_wedge(e.wedge);
+  for (Index w = 0; w < mesh.wedges; ++w)
+    if (first_entry_[w] != kRemoved) number_wedge(w);
+  mesh.base_vertices = static_cast<Index>(out_.vertex_from.size());
+  mesh.base_wedges =
+      mesh.single_wedges ? mesh.base_vertices : static_cast<Index>(out_.wedge_from.size());
+
+  for (std::size_t k = 0; k < mesh.vsplits.size(); ++k) {
+    Index& parent = mesh.vsplits[k].parent;
+    number(removed_vertices_[k], numbers.vertex_to, out_.vertex_from);
+    parent = numbers.vertex_to[parent == kNone ? removed_vertices_[k] : parent];
+  }
+  if (mesh.single_wedges) {
+    out_.wedge_from = out_.vertex_from;
+  } else {
+    for (const Index w : removed_wedges_) number(w, numbers.wedge_to, out_.wedge_from);
+  }
+  for (Index& w : mesh.carried) w = numbers.wedge_to[w];
+  return numbers;
+}
+
+void Recorder::write_base(const Numbering& numbers) {
+  ProgressiveMesh& mesh = out_.mesh;
+  const std::vector<Index>& wedge_to = mesh.single_wedges ? numbers.vertex_to : numbers.wedge_to;
+  mesh.base_map.reserve(entries_.size() - 2 * kMargin);
+  for (std::size_t i = kMargin; i < entries_.size() - kMargin; ++i) {
+    const Entry& e = entries_[i];
+    mesh.base_map.push_back(e.symbol != 0         ? symbol_of(e.symbol)
+                            : e.wedge == kRestart ? kRestart
+                                                  : wedge_to[e.wedge]);
+  }
+  if (mesh.single_wedges) return;
+  mesh.base_wedge_vertex.resize(mesh.base_wedges);
+  for (Index w = 0; w < mesh.base_wedges; ++w)
+    mesh.base_wedge_vertex[w] = numbers.vertex_to[vertex_of(out_.wedge_from[w])];
+}
+
+Recording Recorder::finish(const StripMap& strips) && {
+  ProgressiveMesh& mesh = out_.mesh;
   mesh.name = mesh_.name;
-  mesh.encoding = encoding;
-  mesh.placement = placement_;
   mesh.groups = mesh_.groups;
   mesh.group_entries = strips.group_entries;
   for (const Attribute& a : mesh_.face_attributes)
     mesh.face_attribute_formats.push_back({a.semantic, a.type, a.count, a.normalized, {}});
   mesh.vertices = mesh_.vertex_count();
   mesh.wedges = mesh_.wedge_count();
-  mesh.single_wedges = mesh_.wedge_vertex.empty() && removed_carried_.empty();
-  mesh.triangles = counts_.empty() ? triangles_ : counts_.front().triangles;
-  mesh.strips = counts_.empty() ? strips_ : counts_.front().strips;
-
-  // The base: what is left, in order of appearance in the map, then what stands nowhere in it.
-  std::vector<Index> vertex_to(mesh.vertices, kNone), wedge_to(mesh.wedges, kNone);
-  const auto number_vertex = [&](Index v) {
-    if (vertex_to[v] != kNone) return;
-    vertex_to[v] = static_cast<Index>(out.vertex_from.size());
-    out.vertex_from.push_back(v);
-  };
-  const auto number_wedge = [&](Index w) {
-    if (wedge_to[w] != kNone) return;
-    wedge_to[w] = static_cast<Index>(out.wedge_from.size());
-    out.wedge_from.push_back(w);
-    number_vertex(wedge_vertex_[w]);
-  };
-  for (const Index w : resolved_)
-    if (w != kRestart) number_wedge(w);
-  for (Index w = 0; w < mesh.wedges; ++w)
-    if (wedge_alive_[w]) number_wedge(w);
-  mesh.base_vertices = static_cast<Index>(out.vertex_from.size());
-  mesh.base_wedges = static_cast<Index>(out.wedge_from.size());
-
-  // The records, coarse to fine. Their lists were pushed fine to coarse, a removal's in order.
-  std::size_t wedge = removed_wedges_.size(), carried = removed_carried_.size(),
-              place = places_.size();
-  const std::size_t position_bytes = position_.element_bytes();
-  mesh.vsplits.reserve(removals_.size());
-  mesh.parent_position.reserve(parent_positions_.size());
-  mesh.places.reserve(places_.size());
-  out.levels.push_back({triangles_, strips_, error_});
-  for (std::size_t k = removals_.size(); k-- > 0;) {
-    const Removal& r = removals_[k];
-    number_vertex(r.vertex);
-    const Index parent = r.parent == kNone ? vertex_to[r.vertex] : vertex_to[r.parent];
-    wedge -= r.wedges, carried -= r.carried, place -= r.places;
-    for (std::size_t i = wedge; i < wedge + r.wedges; ++i) number_wedge(removed_wedges_[i]);
-    mesh.vsplits.push_back({parent, r.wedges, r.carried, r.places});
-    if (placement_ == Placement::free) {
-      const auto stood =
-          parent_positions_.begin() + static_cast<std::ptrdiff_t>(k * position_bytes);
-      mesh.parent_position.insert(mesh.parent_position.end(), stood,
-                                  stood + static_cast<std::ptrdiff_t>(position_bytes));
-    }
-    mesh.places.insert(mesh.places.end(), places_.begin() + static_cast<std::ptrdiff_t>(place),
-                       places_.begin() + static_cast<std::ptrdiff_t>(place + r.places));
-    mesh.wedge_places.insert(mesh.wedge_places.end(),
-                             wedge_places_.begin() + static_cast<std::ptrdiff_t>(wedge),
-                             wedge_places_.begin() + static_cast<std::ptrdiff_t>(wedge + r.wedges));
-    for (std::size_t i = carried; i < carried + r.carried; ++i)
-      mesh.carried.push_back(removed_carried_[i]);
-    out.levels.push_back(counts_[k]);
-  }
-  for (Index& w : mesh.carried) w = wedge_to[w];
-
-  mesh.base_map = std::move(map_);
-  for (Index& entry : mesh.base_map)
-    if (is_wedge(entry)) entry = wedge_to[entry];
-  if (!mesh.single_wedges) {
-    mesh.base_wedge_vertex.resize(mesh.base_wedges);
-    for (Index w = 0; w < mesh.base_wedges; ++w)
-      mesh.base_wedge_vertex[w] = vertex_to[wedge_vertex_[out.wedge_from[w]]];
-  }
-  mesh.position = in_order(position_, out.vertex_from);
+  mesh.single_wedges = mesh_.wedge_vertex.empty() && mesh.carried.empty();
+  turn_lists_round();
+  count_strips();
+  mesh.triangles = out_.levels.back().triangles;
+  mesh.strips = out_.levels.back().strips;
+  write_base(number_all());
+  entries_ = {};
+  mesh.position = in_order(moves_kept_ ? moved_ : mesh_.position, out_.vertex_from);
   for (const Attribute& a : mesh_.wedge_attributes)
-    mesh.wedge_attributes.push_back(in_order(a, out.wedge_from));
-  return out;
+    mesh.wedge_attributes.push_back(in_order(a, out_.wedge_from));
+  return std::move(out_);
 }
 
 }  // namespace
@@ -348,17 +455,10 @@ Recording record(const Mesh& mesh, const StripMap& strips, const CollapseSequenc
                  MapEncoding encoding) {
   assert(sequence.placements.empty() ||
          sequence.placements.size() == 3 * sequence.collapses.size());
-  const bool moves_kept = !sequence.placements.empty();
-  Recorder recorder(mesh, strips, encoding, moves_kept ? Placement::free : Placement::subset);
+  Recorder recorder(mesh, strips, sequence, encoding);
   recorder.remove_lone_vertices();
-  std::size_t move = 0;
-  for (std::size_t i = 0; i < sequence.collapses.size(); ++i) {
-    const Collapse& collapse = sequence.collapses[i];
-    recorder.collapse(collapse, std::span(sequence.moves).subspan(move, collapse.moves));
-    move += collapse.moves;
-    if (moves_kept) recorder.place(collapse.kept, std::span(sequence.placements).subspan(3 * i, 3));
-  }
-  return std::move(recorder).finish(strips, encoding);
+  recorder.collapse_all();
+  return std::move(recorder).finish(strips);
 }
 
 }  // namespace pstrip
