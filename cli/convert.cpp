@@ -30,8 +30,9 @@ void report(const Streams& io, const Options& options, const LoadedFile& input,
 }
 
 std::string guards_of(const GuardCounts& counts) {
-  return fmt::format("{} by border, {} by topology, {} by flipped faces", grouped(counts.border),
-                     grouped(counts.link), grouped(counts.flip));
+  return fmt::format("{} by border, {} by topology, {} by flipped faces, {} by flipped texture",
+                     grouped(counts.border), grouped(counts.link), grouped(counts.flip),
+                     grouped(counts.texture));
 }
 
 std::string_view reason_of(SimplifyStop stop) {

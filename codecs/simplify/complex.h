@@ -22,9 +22,10 @@ struct Spoke {
 /// What speaks against a collapse.
 enum class Guard : std::uint8_t {
   none,
-  border,  ///< a vertex leaves the border, or a place where several borders meet
-  link,    ///< the topology changes, or two faces become one
-  flip,    ///< a face turns too far or becomes a sliver
+  border,   ///< a vertex leaves the border, or a place where several borders meet
+  link,     ///< the topology changes, or two faces become one
+  flip,     ///< a face turns too far or becomes a sliver
+  texture,  ///< the same in the texture, where faces may not turn over
 };
 
 /// An edge at a vertex.

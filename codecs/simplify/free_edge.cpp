@@ -335,8 +335,10 @@ const StarEdge* EdgeSimplifier::choose(Index q, float limit) {
     for (StarEdge& edge : star_.edges) {
       if (give_up ? edge.refused != Guard::none : &edge != best) continue;
       const Vec3f offset = complex_.offset(q, edge.vertex);
-      const Guard refused =
+      Guard refused =
           give_up ? Guard::flip : guards_.check(star_, edge, edge.place, edge.place - offset);
+      if (refused == Guard::none && wedges_ && wedges_->breaks_texture(star_, edge))
+        refused = Guard::texture;
       if (refused == Guard::none) return best;
       count(out_.refused, refused);
       edge.refused = refused;

@@ -38,6 +38,7 @@ inline void count(GuardCounts& counts, Guard guard) {
   if (guard == Guard::border) ++counts.border;
   if (guard == Guard::link) ++counts.link;
   if (guard == Guard::flip) ++counts.flip;
+  if (guard == Guard::texture) ++counts.texture;
 }
 
 }  // namespace pstrip

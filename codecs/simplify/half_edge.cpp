@@ -328,7 +328,9 @@ void HalfEdgeSimplifier::refuse(Index q, StarEdge& edge, Guard guard) {
 }
 
 Guard HalfEdgeSimplifier::check(const StarEdge& edge) {
-  const Guard guard = guards_.check(star_, edge);
+  Guard guard = guards_.check(star_, edge);
+  if (guard == Guard::none && wedges_ && wedges_->breaks_texture(star_, edge))
+    guard = Guard::texture;
   count(out_.refused, guard);
   return guard;
 }

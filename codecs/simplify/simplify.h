@@ -21,6 +21,9 @@ struct SimplifyInput {
   /// 1 costs as much as a displacement of the bounding-box diagonal; empty: none.
   std::span<const float> attributes;
   std::uint32_t attribute_count = 0;
+  /// The first of two attributes that are texture coordinates, whose triangles shall not turn over;
+  /// kNone: none.
+  std::uint32_t texture = kNone;
 };
 
 /// By what collapses are ordered, and vertices placed.
@@ -65,7 +68,7 @@ enum class SimplifyStop : std::uint8_t {
 
 /// How often each guard spoke, see simplify().
 struct GuardCounts {
-  std::uint64_t border = 0, link = 0, flip = 0;
+  std::uint64_t border = 0, link = 0, flip = 0, texture = 0;
   friend bool operator==(const GuardCounts&, const GuardCounts&) = default;
 };
 
@@ -89,10 +92,10 @@ struct CollapseSequence {
 ///
 /// Guards keep the shape: a vertex on a border or non-manifold edge collapses only along such an
 /// edge, the link condition keeps the topology, no face turns by more than about 80° or
-/// degenerates. A guard does not forbid: the refused collapse costs its whole displacement
-/// as well, so that components and holes smaller than the error of the rest vanish and every mesh
-/// can be reduced to nothing. Wedges that would be carried, merged attributes and seams are priced
-/// too.
+/// degenerates, and none turns over or degenerates in the texture. A guard does not forbid: the
+/// refused collapse costs its whole displacement as well, so that components and holes smaller than
+/// the error of the rest vanish and every mesh can be reduced to nothing. Wedges that would be
+/// carried, merged attributes and seams are priced too.
 ///
 /// With free placement the kept vertex moves to where the metric is least, and its wedges keep
 /// their attributes. The memoryless metric looks at the faces there are, keeps the volume under

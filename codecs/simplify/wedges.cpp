@@ -5,15 +5,42 @@
 #include <cmath>
 
 namespace pstrip {
+namespace {
+
+// Area over the longest side squared below which a triangle of the texture is a sliver.
+constexpr float kSliver = 1e-2f;
+
+// Whether a triangle of the texture turns over when its corner goes from `from` to `to`, or becomes
+// a sliver that it was not. All flat.
+bool turns_over(Vec3f next, Vec3f previous, Vec3f from, Vec3f to) {
+  const auto area = [&](Vec3f corner) {
+    const Vec3f a = next - corner, b = previous - corner;
+    return a.x * b.y - a.y * b.x;
+  };
+  const auto longest = [&](Vec3f corner) {
+    const Vec3f a = next - corner, b = previous - corner, c = next - previous;
+    return std::max({dot(a, a), dot(b, b), dot(c, c)});
+  };
+  const float before = area(from), after = area(to);
+  if (before == 0) return false;  // was no triangle to begin with
+  if ((before > 0) != (after > 0)) return true;
+  const float length = longest(to);
+  return std::abs(after) < kSliver * length &&
+         std::abs(after) * longest(from) < std::abs(before) * length;
+}
+
+}  // namespace
 
 WedgeTable::WedgeTable(const SimplifyInput& input, double diagonal)
     : corner_wedge(input.triangles.size() / 3 * 4),
       attributes_(input.attributes),
       count_(input.attributes.empty() ? 0 : input.attribute_count),
+      texture_(input.texture),
       scale_(static_cast<float>(diagonal)) {
   const std::size_t vertices = input.positions.size() / 3;
   const std::size_t wedges = input.wedge_vertex.empty() ? vertices : input.wedge_vertex.size();
   assert(attributes_.size() == wedges * count_);
+  assert(texture_ == kNone || texture_ + 1 < count_);
   for (std::size_t t = 0; 3 * t < input.triangles.size(); ++t)
     std::copy_n(input.triangles.begin() + static_cast<std::ptrdiff_t>(3 * t), 3,
                 corner_wedge.begin() + static_cast<std::ptrdiff_t>(4 * t));
@@ -50,17 +77,20 @@ float WedgeTable::live_weight(const Star& star) {
   return sum;
 }
 
+// Calls visit(corner of the star's vertex, corner of the other end) for the triangles of an edge.
+template <class Visit>
+void WedgeTable::for_each_triangle(const Star& star, const StarEdge& edge, Visit&& visit) const {
+  for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
+    const Index corner = star.spokes[i / 2].corner;
+    visit(corner, i % 2 == 0 ? Complex::next(corner) : Complex::previous(corner));
+  }
+}
+
 WedgeTable::Cost WedgeTable::cost(const Star& star, const StarEdge& edge) {
-  const auto for_each_triangle = [&](auto&& visit) {
-    for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
-      const Index corner = star.spokes[i / 2].corner;
-      visit(corner, i % 2 == 0 ? Complex::next(corner) : Complex::previous(corner));
-    }
-  };
   new_epoch();
-  for_each_triangle([&](Index from, Index to) { mark_first(from, to); });
+  for_each_triangle(star, edge, [&](Index from, Index to) { mark_first(from, to); });
   Cost sum;
-  for_each_triangle([&](Index from, Index to) {
+  for_each_triangle(star, edge, [&](Index from, Index to) {
     const Index wedge = corner_wedge[from], first = other(wedge);
     if (first == to) {
       sum.mapped_weight += weight_[wedge];
@@ -70,6 +100,24 @@ WedgeTable::Cost WedgeTable::cost(const Star& star, const StarEdge& edge) {
     }
   });
   return sum;
+}
+
+bool WedgeTable::breaks_texture(const Star& star, const StarEdge& edge) {
+  if (texture_ == kNone) return false;
+  new_epoch();
+  for_each_triangle(star, edge, [&](Index from, Index to) { mark_first(from, to); });
+  const auto place = [&](Index wedge) {
+    const float* const a = &attributes_[std::size_t{wedge} * count_ + texture_];
+    return Vec3f{a[0], a[1], 0};
+  };
+  return std::ranges::any_of(star.spokes, [&](const Spoke& spoke) {
+    const Index wedge = corner_wedge[spoke.corner];
+    if (spoke.next == edge.vertex || spoke.previous == edge.vertex || !is_marked(wedge))
+      return false;  // gone, or carried
+    return turns_over(place(corner_wedge[Complex::next(spoke.corner)]),
+                      place(corner_wedge[Complex::previous(spoke.corner)]), place(wedge),
+                      place(corner_wedge[other(wedge)]));
+  });
 }
 
 void WedgeTable::add_cost(Index wedge, Index to, Cost& sum) const {

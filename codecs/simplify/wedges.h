@@ -47,6 +47,8 @@ class WedgeTable {
     float at(Vec3f x) const { return constant + 2 * dot(linear, x); }
   };
   Cost cost(const Star& star, const StarEdge& edge);
+  /// Whether that turns a face over in the texture, or makes it a sliver there that it was not.
+  bool breaks_texture(const Star& star, const StarEdge& edge);
   /// Of all wedges that the star uses.
   float live_weight(const Star& star);
 
@@ -80,6 +82,8 @@ class WedgeTable {
     Vec3f g;
     float d = 0;
   };
+  template <class Visit>
+  void for_each_triangle(const Star& star, const StarEdge& edge, Visit&& visit) const;
   void add_cost(Index wedge, Index to, Cost& sum) const;
   float conflict(Index wedge, Index a, Index b) const;
   void replace(Index wedge, Index to, Vec3f offset, Quadric& quadric);
@@ -87,6 +91,7 @@ class WedgeTable {
 
   std::span<const float> attributes_;
   std::uint32_t count_;
+  std::uint32_t texture_;
   float scale_;
   std::vector<float> weight_;
   std::vector<Term> terms_;

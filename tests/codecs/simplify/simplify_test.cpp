@@ -419,6 +419,47 @@ TEST(Simplify, KeepsWhatAttributesShow) {
   EXPECT_GT(blurred.collapses.back().error, 1e-2 * diagonal);
 }
 
+// Triangles that run clockwise in the texture.
+std::size_t mirrored(const Source& source, const std::vector<Index>& triangles) {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const float* const a = &source.attributes[2 * triangles[t]];
+    const float* const b = &source.attributes[2 * triangles[t + 1]];
+    const float* const c = &source.attributes[2 * triangles[t + 2]];
+    count += (b[0] - a[0]) * (c[1] - a[1]) < (c[0] - a[0]) * (b[1] - a[1]);
+  }
+  return count;
+}
+
+TEST(Simplify, TurnsNoTriangleOverInTheTexture) {
+  // A flat sheet whose texture is wound up like a scroll and weighs nothing: no error tells where a
+  // triangle reaches too far around.
+  constexpr Index kSide = 41;
+  Source source = flat_grid(kSide, 1);
+  source.attributes.clear();
+  for (Index v = 0; v < kSide * kSide; ++v) {
+    const double turn = 12.0 * (v % kSide) / kSide, radius = 1 + 0.5 * (v / kSide) / kSide;
+    for (const double x : {radius * std::cos(turn), -radius * std::sin(turn)})
+      source.attributes.push_back(static_cast<float>(1e-6 * x));
+  }
+  ASSERT_EQ(mirrored(source, source.triangles), 0u);
+  SimplifyInput guarded = source.input();
+  guarded.texture = 0;
+  for (const Manner& manner : kManners) {
+    SCOPED_TRACE(manner.name);
+    const auto mirrored_after = [&](const CollapseSequence& sequence) {
+      Replay replay(source);
+      replay.perform(sequence);
+      return mirrored(source, replay.triangles());
+    };
+    EXPECT_GT(mirrored_after(run(source, manner.to(60))), 10u);
+    const CollapseSequence sequence = simplify(guarded, manner.to(60));
+    EXPECT_EQ(mirrored_after(sequence), 0u);
+    EXPECT_GT(sequence.refused.texture, 0u);
+    EXPECT_EQ(sequence.forced, GuardCounts{});
+  }
+}
+
 TEST(Simplify, KeepsTopologyWhileGuardsHold) {
   const Source source = source_of(test::torus(60, 30));
   for (const Manner& manner : kManners) {
