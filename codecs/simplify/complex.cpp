@@ -21,7 +21,6 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
                  std::span<const Index> triangles)
     : points(positions.size() / 3),
       vertices(points.size()),
-      states(points.size()),
       marks(points.size()),
       slot_(points.size()) {
   assert(triangles.size() / 3 < kMaxCount / 4);
@@ -51,7 +50,7 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
     if (is_finite(p))
       points[v].position = {scaled(p[0], 0), scaled(p[1], 1), scaled(p[2], 2)};
     else
-      points[v].error = states[v].error = std::numeric_limits<float>::infinity();
+      points[v].error = std::numeric_limits<float>::infinity();
   }
   if (extent > 0)
     diagonal = std::hypot((high[0] - low[0]) * scale[0] * scale[1],
@@ -120,6 +119,102 @@ void Complex::gather(Index vertex, Star& star) {
   star.edges = star.edge_buffer;
   star.open_edges = static_cast<Index>(
       std::ranges::count_if(star.edges, [](const StarEdge& edge) { return edge.triangles != 2; }));
+  place_edges(star);
+  place_spokes(star);
+}
+
+void Complex::gather_regular(Index vertex, Star& star) {
+  VertexRecord& record = vertices[vertex];
+  star.vertex = vertex;
+  star.open_edges = 0;
+  if (star.spoke_buffer.size() < record.ring_size) star.spoke_buffer.resize(record.ring_size);
+  if (star.edge_buffer.size() < record.ring_size) star.edge_buffer.resize(record.ring_size);
+  Index live = 0;
+  Index* const first = pool_.data() + record.ring;
+  for (Index i = 0; i < record.ring_size; ++i) {
+    const Index corner = first[i];
+    if (is_dead(corner)) continue;
+    first[live] = corner;
+    Spoke& spoke = star.spoke_buffer[live];
+    spoke.next = corner_vertex[next(corner)];
+    spoke.previous = corner_vertex[previous(corner)];
+    spoke.corner = corner;
+    StarEdge& edge = star.edge_buffer[live];
+    edge.vertex = spoke.next;
+    edge.triangles = 2;
+    edge.refused = Guard::none;
+    ++live;
+  }
+  record.ring_size = live;
+  star.spokes = {star.spoke_buffer.data(), live};
+  star.edges = {star.edge_buffer.data(), live};
+  place_edges(star);
+  place_spokes(star);
+}
+
+// Where there is no edge, the star's vertex takes its place.
+void Complex::place_edges(Star& star) const {
+  const std::size_t n = star.edges.size(), groups = (n + 3) / 4;
+  if (star.edge_group_buffer.size() < groups) star.edge_group_buffer.resize(groups);
+  star.edge_groups = {star.edge_group_buffer.data(), groups};
+  const VertexPoint own = points[star.vertex];
+  for (std::size_t g = 0; g < groups; ++g) {
+    EdgeGroup& group = star.edge_groups[g];
+    const auto end = [&](std::size_t i) {
+      return 4 * g + i < n ? star.edges[4 * g + i].vertex : kNone;
+    };
+    const Index v[4] = {end(0), end(1), end(2), end(3)};
+    std::memcpy(&group.vertex, v, sizeof v);
+    const auto point = [&](Index i) { return load4(i == kNone ? &own : &points[i]); };
+    Vec3x4 p = {point(v[0]), point(v[1]), point(v[2])};
+    group.error = point(v[3]);
+    transpose4(p.x, p.y, p.z, group.error);
+    group.offset = p - own.position;
+  }
+}
+
+// A triangle with a locked vertex gets no area.
+void Complex::place_spokes(Star& star) const {
+  const std::size_t n = star.spokes.size(), groups = (n + 3) / 4;
+  if (star.spoke_group_buffer.size() < groups) star.spoke_group_buffer.resize(groups);
+  star.spoke_groups = {star.spoke_group_buffer.data(), groups};
+  const VertexPoint own = points[star.vertex];
+  const auto offsets = [&](std::size_t first, Index Spoke::*end) {
+    const auto point = [&](std::size_t i) {
+      return load4(first + i < n ? &points[star.spokes[first + i].*end] : &own);
+    };
+    Vec3x4 p = {point(0), point(1), point(2)};
+    Float4 error = point(3);
+    transpose4(p.x, p.y, p.z, error);
+    p = p - own.position;
+    const Int4 known = error < std::numeric_limits<float>::infinity();
+    return Vec3x4{known ? p.x : Float4{}, known ? p.y : Float4{}, known ? p.z : Float4{}};
+  };
+  for (std::size_t g = 0; g < groups; ++g) {
+    star.spoke_groups[g].next = offsets(4 * g, &Spoke::next);
+    star.spoke_groups[g].previous = offsets(4 * g, &Spoke::previous);
+  }
+}
+
+Quadric Star::measure() {
+  Float4 xx = {}, yy = {}, zz = {}, xy = {}, xz = {}, yz = {}, weight = {};
+  for (SpokeGroup& group : spoke_groups) {
+    const Vec3x4 n = cross(group.next, group.previous);
+    const Float4 length = sqrt4(dot(n, n));
+    const Float4 inverse = length > 0 ? 1 / length : Float4{};
+    group.normal = {n.x * inverse, n.y * inverse, n.z * inverse};
+    group.area = length > 0 ? length * 0.5f : Float4{};
+    const Vec3x4& u = group.normal;
+    const Vec3x4 w = {u.x * group.area, u.y * group.area, u.z * group.area};
+    xx += w.x * u.x, yy += w.y * u.y, zz += w.z * u.z;
+    xy += w.x * u.y, xz += w.x * u.z, yz += w.y * u.z;
+    weight += group.area;
+  }
+  Quadric sum;
+  sum.xx = sum4(xx), sum.yy = sum4(yy), sum.zz = sum4(zz);
+  sum.xy = sum4(xy), sum.xz = sum4(xz), sum.yz = sum4(yz);
+  sum.weight = sum4(weight);
+  return sum;
 }
 
 void Complex::append(Index vertex, std::span<const Index> corners) {

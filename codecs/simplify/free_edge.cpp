@@ -17,7 +17,7 @@
 #include "codecs/simplify/guards.h"
 #include "codecs/simplify/initial_quadrics.h"
 #include "codecs/simplify/placement.h"
-#include "codecs/simplify/vertex_heap.h"
+#include "codecs/simplify/vertex_buckets.h"
 #include "codecs/simplify/wedges.h"
 
 namespace pstrip {
@@ -35,13 +35,18 @@ float rounded_down(float error) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
 }
 
+struct Face {
+  Vec3f normal;  // unit, or zero
+  float area = 0;
+};
+
 // The faces and open edges that are around a vertex now: planes through it, and the sum of the
 // faces' areas as vectors.
 struct alignas(64) Surroundings {
   Quadric planes;
   Vec3f area;
 
-  void add(const QuadricBuilder::Face& face) {
+  void add(const Face& face) {
     planes.add_plane(face.normal, face.area);
     area = area + face.normal * face.area;
   }
@@ -54,10 +59,12 @@ class EdgeSimplifier {
         options_(options),
         memoryless_(options.metric == Metric::memoryless),
         free_(options.placement == Placement::free),
-        complex_(input.positions, input.wedge_vertex, input.triangles) {
-    if (!input.wedge_vertex.empty() || input.attribute_count > 0)
-      wedges_.emplace(input, complex_.diagonal);
-    if (memoryless_) around_.resize(complex_.vertex_count());
+        complex_(input.positions, input.wedge_vertex, input.triangles),
+        wedges_(wedge_table(input, complex_.diagonal)) {
+    if (memoryless_) {
+      around_.resize(complex_.vertex_count());
+      faces_.resize(complex_.triangle_count());
+    }
     if (memoryless_ && input.attribute_count > 0) {
       attribute_quadrics_.resize(complex_.vertex_count());
       attribute_errors_.resize(complex_.vertex_count());
@@ -83,11 +90,11 @@ class EdgeSimplifier {
     Volume volume;
   };
 
-  void fill_heap();
+  void fill_queue();
   // Whether it is too costly to know what is around a vertex.
   bool is_large(Index v) const { return large_[v] != 0; }
   bool has_line_terms(Index v) const {
-    return wedges_ || !input_.group.empty() || !complex_.states[v].regular;
+    return wedges_ || !input_.group.empty() || !complex_.vertices[v].regular;
   }
   // Whether the edge from v to x is priced with v, as a collapse of v onto x. Where it makes no
   // difference which end goes, it is priced with one of them: half the work. That is the one that
@@ -98,6 +105,7 @@ class EdgeSimplifier {
     return hold_[v] != hold_[x] ? hold_[v] < hold_[x] : v < x;
   }
   void gather(Index v, Star& star);
+  void update_face(Index triangle);
   void survey(Index v, const Star& star);
   void survey(Index v);
   void evaluate(const Star& star);
@@ -123,9 +131,10 @@ class EdgeSimplifier {
   const bool memoryless_, free_;
   Complex complex_;
   Guards guards_{complex_};
-  std::optional<WedgeTable> wedges_;  // none when each vertex has one wedge and no attributes
-  std::optional<QuadricBuilder> builder_;
-  std::optional<VertexHeap> heap_;
+  std::optional<WedgeTable> wedges_;
+  QuadricBuilder builder_{complex_, input_, wedges_ ? &*wedges_ : nullptr};
+  std::vector<Face> faces_;  // memoryless: of all triangles
+  std::optional<VertexBuckets> queue_;
   std::vector<Surroundings> around_;         // memoryless: of all vertices whose ring is not large
   std::vector<Quadric> attribute_quadrics_;  // memoryless: what attributes demand, accumulated
   std::vector<float> attribute_errors_;      // and their constant terms
@@ -141,12 +150,12 @@ class EdgeSimplifier {
 
 CollapseSequence EdgeSimplifier::run(const Progress& progress) {
   if (out_.triangles_left <= options_.target_triangles) return std::move(out_);
-  fill_heap();
-  collapse_until(out_, *heap_, options_.target_triangles, most_error_ < kInfinity, progress,
-                 [&](Index q) {
+  fill_queue();
+  collapse_until(out_, complex_, *queue_, options_.target_triangles, most_error_ < kInfinity,
+                 progress, [&](Index q) {
                    gather(q, star_);
                    evaluate(star_);
-                   const StarEdge* const edge = choose(q, heap_->second_key());
+                   const StarEdge* const edge = choose(q, queue_->limit());
                    if (edge) collapse(q, *edge);
                    return edge != nullptr;
                  });
@@ -158,22 +167,28 @@ void EdgeSimplifier::gather(Index v, Star& star) {
     complex_.gather(v, star);
   else
     complex_.gather_regular(v, star);
+  star.measure();
   if (is_large(v) && star.spokes.size() <= kLargeRing) {
     large_[v] = 0;
     if (memoryless_) survey(v, star);
   }
 }
 
-void EdgeSimplifier::fill_heap() {
-  builder_.emplace(complex_, input_, wedges_ ? &*wedges_ : nullptr,
-                   attribute_quadrics_.empty() ? nullptr : attribute_quadrics_.data());
+void EdgeSimplifier::fill_queue() {
+  if (wedges_)
+    builder_.add_attributes(attribute_quadrics_.empty() ? nullptr : attribute_quadrics_.data());
+  if (memoryless_)
+    for (Index t = 0; t < faces_.size(); ++t) update_face(t);
   for (Index v = 0; v < complex_.vertex_count(); ++v) {
+    if (complex_.is_locked(v)) continue;
+    VertexRecord& record = complex_.vertices[v];
     complex_.gather(v, star_);
-    complex_.states[v].regular =
+    record.regular =
         star_.open_edges == 0 &&
         std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
     hold_[v] = star_.open_edges > 2 ? 2 : star_.open_edges > 0 ? 1 : 0;
-    builder_->add_edges(star_);
+    record.quadric.add_matrix(star_.measure());
+    builder_.add_edges(star_, record.quadric);
     if (memoryless_) survey(v, star_);
   }
   std::vector<float> keys(complex_.vertex_count(), kInfinity);
@@ -184,13 +199,22 @@ void EdgeSimplifier::fill_heap() {
     keys[v] = least_owned(star_);
     complex_.vertices[v].key = keys[v];
   }
-  heap_.emplace(keys);
+  queue_.emplace(keys);
+}
+
+void EdgeSimplifier::update_face(Index t) {
+  const Index* const v = &complex_.corner_vertex[std::size_t{4} * t];
+  faces_[t] = {};
+  if (complex_.is_locked(v[0]) || complex_.is_locked(v[1]) || complex_.is_locked(v[2])) return;
+  const Vec3f n = cross(complex_.offset(v[0], v[1]), complex_.offset(v[0], v[2]));
+  const float length = std::sqrt(dot(n, n));
+  if (length > 0) faces_[t] = {n * (1 / length), length / 2};
 }
 
 void EdgeSimplifier::survey(Index v, const Star& star) {
   Surroundings around;
-  for (const Spoke& spoke : star.spokes) around.add(builder_->face(spoke.corner / 4));
-  if (has_line_terms(v)) builder_->add_edges(star, around.planes);
+  for (const Spoke& spoke : star.spokes) around.add(faces_[spoke.corner / 4]);
+  if (has_line_terms(v)) builder_.add_edges(star, around.planes);
   around_[v] = around;
 }
 
@@ -203,7 +227,7 @@ void EdgeSimplifier::survey(Index v) {
     return;
   }
   Surroundings around;
-  for (const Index corner : complex_.ring_with_dead(v)) around.add(builder_->face(corner / 4));
+  for (const Index corner : complex_.ring_with_dead(v)) around.add(faces_[corner / 4]);
   around_[v] = around;
 }
 
@@ -241,7 +265,7 @@ EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edg
     const Quadric& kept = complex_.vertices[p].quadric;
     sum.quadric = complex_.vertices[q].quadric;
     sum.quadric.add(kept, offset);
-    sum.constant = complex_.states[q].error + complex_.states[p].error + kept.at(offset * -1);
+    sum.constant = complex_.points[q].error + complex_.points[p].error + kept.at(offset * -1);
     return sum;
   }
   const Surroundings &mine = around_[q], &its = around_[p];
@@ -253,7 +277,7 @@ EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edg
   sum.volume = {mine.area + its.area, dot(its.area, offset)};
   for (const Spoke& spoke : star.spokes) {
     if (spoke.next != p && spoke.previous != p) continue;
-    const QuadricBuilder::Face& face = builder_->face(spoke.corner / 4);
+    const Face& face = faces_[spoke.corner / 4];
     sum.quadric.add_plane(face.normal, -face.area);
     sum.volume.area = sum.volume.area - face.normal * face.area;
   }
@@ -281,8 +305,8 @@ void EdgeSimplifier::price(const Star& star, StarEdge& edge, float live_weight) 
   if (is_large(q) || is_large(p)) {
     // What is around a large ring is not known. Its vertex stays, and its own error counts little.
     const VertexRecord& record = complex_.vertices[q];
-    error = complex_.states[q].error + record.quadric.at(offset) +
-            rounded_down(complex_.states[p].error);
+    error = complex_.points[q].error + record.quadric.at(offset) +
+            rounded_down(complex_.points[p].error);
   } else {
     Sum sum = sum_of(star, edge);
     sum.quadric.b = sum.quadric.b + wedge_cost.linear;
@@ -307,8 +331,8 @@ void EdgeSimplifier::price(const Star& star, StarEdge& edge, float live_weight) 
 // What all faces ever replaced say of a place, given relative to q.
 float EdgeSimplifier::history_error(Index q, Index p, Vec3f place) const {
   const Vec3f kept_place = place - complex_.offset(q, p);
-  return complex_.states[q].error + complex_.vertices[q].quadric.at(place) +
-         complex_.states[p].error + complex_.vertices[p].quadric.at(kept_place);
+  return complex_.points[q].error + complex_.vertices[q].quadric.at(place) +
+         complex_.points[p].error + complex_.vertices[p].quadric.at(kept_place);
 }
 
 // The edge to collapse now that q is on top of the heap, all others having a key of at least
@@ -359,7 +383,7 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
   for (const Spoke& spoke : star_.spokes) {
     if (spoke.next == p || spoke.previous == p) {
       complex_.kill(spoke.corner);
-      builder_->remove(spoke.corner / 4);
+      if (memoryless_) faces_[spoke.corner / 4] = {};
       --out_.triangles_left;
     } else {
       complex_.corner_vertex[spoke.corner] = p;
@@ -381,13 +405,12 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
   const bool becomes_large = !is_large(p) && complex_.vertices[p].ring_size > kLargeRing;
   if (becomes_large) large_[p] = 1;
   complex_.vertices[q].ring_size = 0;
-  heap_->remove(q);
   count(out_.forced, edge.refused);
   if (edge.refused != Guard::none) {
-    complex_.states[p].regular = false;
-    for (const StarEdge& other : star_.edges) complex_.states[other.vertex].regular = false;
+    complex_.vertices[p].regular = false;
+    for (const StarEdge& other : star_.edges) complex_.vertices[other.vertex].regular = false;
   }
-  complex_.states[p].regular &= complex_.states[q].regular;
+  complex_.vertices[p].regular &= complex_.vertices[q].regular;
   hold_[p] = std::max(hold_[p], hold_[q]);
   complex_.vertices[q].key = kInfinity;
   if (has_moved) {
@@ -408,8 +431,8 @@ void EdgeSimplifier::join_quadrics(Index q, Index p, Vec3f place, float wedge_co
     from.move(place);
     to.add(from, {});
   };
-  join(complex_.vertices[q].quadric, complex_.states[q].error, complex_.vertices[p].quadric,
-       complex_.states[p].error);
+  join(complex_.vertices[q].quadric, complex_.points[q].error, complex_.vertices[p].quadric,
+       complex_.points[p].error);
   if (!attribute_quadrics_.empty())
     join(attribute_quadrics_[q], attribute_errors_[q], attribute_quadrics_[p],
          attribute_errors_[p]);
@@ -417,7 +440,7 @@ void EdgeSimplifier::join_quadrics(Index q, Index p, Vec3f place, float wedge_co
 
 void EdgeSimplifier::note_collapse(Index q, Index p, std::size_t first_move) {
   const float weight = complex_.vertices[p].quadric.weight;
-  const float mean = weight > 0 ? std::sqrt(complex_.states[p].error / weight) : 0;
+  const float mean = weight > 0 ? std::sqrt(complex_.points[p].error / weight) : 0;
   const double error = mean / complex_.scale[0] / complex_.scale[1];
   last_error_ = std::max(
       last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
@@ -432,7 +455,7 @@ void EdgeSimplifier::note_collapse(Index q, Index p, std::size_t first_move) {
 void EdgeSimplifier::look_around(Index p, bool has_moved, bool becomes_large) {
   if (memoryless_) {
     const auto changed = has_moved ? complex_.ring(p) : std::span<const Index>(moved_corners_);
-    for (const Index corner : changed) builder_->update(corner / 4);
+    for (const Index corner : changed) update_face(corner / 4);
   }
   if (becomes_large) gather(p, kept_star_);  // all of its edges change owners
   if (is_large(p)) {
@@ -440,9 +463,9 @@ void EdgeSimplifier::look_around(Index p, bool has_moved, bool becomes_large) {
       const Index x = edge.vertex;
       if (x == p || complex_.is_locked(x)) continue;
       if (memoryless_) survey(x);
-      lower_key(x, complex_.states[x].error +
+      lower_key(x, complex_.points[x].error +
                        complex_.vertices[x].quadric.at(complex_.offset(x, p)) +
-                       rounded_down(complex_.states[p].error));
+                       rounded_down(complex_.points[p].error));
     }
     return;
   }
@@ -469,16 +492,13 @@ void EdgeSimplifier::lower_key(Index x, float key) {
   if (key < complex_.vertices[x].key) set_key(x, key);
 }
 
-// Infinity takes a vertex out of the heap until it gets an edge that may collapse.
+// Infinity takes a vertex out of the queue until it gets an edge that may collapse.
 void EdgeSimplifier::set_key(Index x, float key) {
   complex_.vertices[x].key = key;
-  if (!heap_->contains(x)) {
-    if (key < kInfinity) heap_->insert(x, key);
-  } else if (key < kInfinity) {
-    heap_->update(x, key);
-  } else {
-    heap_->remove(x);
-  }
+  if (key < kInfinity)
+    queue_->put(x, key);
+  else
+    queue_->remove(x);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@ constexpr float kLeastCosine = 0.2f;
 // Height over longest side below which a face is a sliver. No more than what degenerates: the long
 // faces that developable parts of CAD models need are much thinner than one would like.
 constexpr float kSliver = 1e-4f;
+// Rings up to this size are compared pair by pair.
+constexpr Index kMostForPairs = 16;
 
 // A vertex on a border or non-manifold edge may only slide along it, and not where several meet.
 bool breaks_border(const Star& star, const StarEdge& edge) {
@@ -54,9 +56,29 @@ Guard Guards::check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f k
              : Guard::none;
 }
 
+// What breaks_link() says where every edge at q and p has two triangles: each neighbour of p is the
+// next of one of its corners, and those that q has too are to be the two on triangles with both.
+bool Guards::breaks_regular_link(const Star& star, Index p) {
+  Int4 shared = {};
+  for (const Index corner : complex_.ring(p)) {
+    const auto x = static_cast<std::int32_t>(complex_.corner_vertex[Complex::next(corner)]);
+    for (const EdgeGroup& group : star.edge_groups) shared += group.vertex == x;
+  }
+  if (shared[0] + shared[1] + shared[2] + shared[3] != -2) return true;
+  if (star.spokes.size() != 3) return false;
+  for (const Spoke& spoke : star.spokes)
+    if (spoke.next != p && spoke.previous != p) return has_triangle(p, spoke.next, spoke.previous);
+  return false;
+}
+
 // Link condition: what p and q both neighbour is on a triangle with both, and no two faces become
 // one. Not told apart in time counts as broken.
 bool Guards::breaks_link(const Star& star, Index p) {
+  const auto is_small = [&](Index v) {
+    const VertexRecord& record = complex_.vertices[v];
+    return record.regular && record.ring_size <= kMostForPairs;
+  };
+  if (is_small(star.vertex) && is_small(p)) return breaks_regular_link(star, p);
   std::vector<Index>& marks = complex_.marks;
   const Index near = complex_.new_epoch(2), apex = near + 1;
   const bool large = complex_.vertices[p].ring_size > kLargeRing;
@@ -103,12 +125,26 @@ bool Guards::has_triangle(Index a, Index b, Index c) {
   });
 }
 
+// As face_flips() for four faces at once; those that may have become slivers are asked singly.
 bool Guards::flips(const Star& star, Index p, Vec3f shift) const {
-  return std::ranges::any_of(star.spokes, [&](const Spoke& spoke) {
-    return spoke.next != p && spoke.previous != p &&
-           face_flips(complex_.offset(star.vertex, spoke.next),
-                      complex_.offset(star.vertex, spoke.previous), shift);
-  });
+  for (std::size_t g = 0; g < star.spoke_groups.size(); ++g) {
+    const SpokeGroup& group = star.spoke_groups[g];
+    const Vec3x4 u = group.next - shift, v = group.previous - shift, w = u - v;
+    const Vec3x4 after = cross(u, v);
+    const Float4 turn = dot(after, group.normal), size = dot(after, after);
+    const Float4 length = max4(max4(dot(u, u), dot(v, v)), dot(w, w));
+    const Int4 turns = (turn <= 0) | (turn * turn < kLeastCosine * kLeastCosine * size);
+    const Int4 suspect = (group.area > 0) & (turns | (size < kSliver * kSliver * length * length));
+    if (!any4(suspect)) continue;
+    for (std::size_t i = 4 * g; i < std::min(4 * g + 4, star.spokes.size()); ++i) {
+      const Spoke& spoke = star.spokes[i];
+      if (suspect[i % 4] == 0 || spoke.next == p || spoke.previous == p) continue;
+      if (turns[i % 4] != 0 ||
+          face_flips(group.next.lane(i % 4), group.previous.lane(i % 4), shift))
+        return true;
+    }
+  }
+  return false;
 }
 
 bool Guards::flips_kept(Index q, Index p, Vec3f shift) {

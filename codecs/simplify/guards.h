@@ -18,13 +18,14 @@ class Guards {
   explicit Guards(Complex& complex) : complex_(complex) {}
 
   /// For the collapse of the star's vertex onto the other end of `edge`, which stays where it is.
-  /// Cost O(both rings) until a ring is large.
+  /// Cost O(both rings) until a ring is large. The star must have been measured.
   Guard check(const Star& star, const StarEdge& edge);
   /// The same when both ends move, by `shift` and `kept_shift`.
   Guard check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f kept_shift);
 
  private:
   bool breaks_link(const Star& star, Index p);
+  bool breaks_regular_link(const Star& star, Index p);
   bool has_neighbour(Index vertex, Index other);
   bool has_triangle(Index a, Index b, Index c);
   bool flips(const Star& star, Index p, Vec3f shift) const;

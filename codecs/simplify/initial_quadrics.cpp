@@ -12,77 +12,58 @@ namespace {
 constexpr float kBorderWeight = 2;
 constexpr float kSeamWeight = 1;
 
+// Faces that lie on each other, back to back, do not hold their common edge; beyond a right angle
+// it needs holding more and more.
+float fold_weight(Vec3f normal, Vec3f other, bool same_direction) {
+  const float cosine = dot(normal, other) * (same_direction ? -1.f : 1.f);
+  return kBorderWeight * std::max(0.f, -cosine);
+}
+
 }  // namespace
 
-QuadricBuilder::QuadricBuilder(Complex& complex, const SimplifyInput& input, WedgeTable* wedges,
-                               Quadric* attribute_quadrics)
-    : complex_(complex),
-      input_(input),
-      wedges_(wedges),
-      attribute_quadrics_(attribute_quadrics),
-      faces_(complex.triangle_count()) {
-  for (Index t = 0; t < complex.triangle_count(); ++t) add_face(t);
-}
-
-void QuadricBuilder::update(Index t) {
-  const Index* const v = &complex_.corner_vertex[4 * t];
-  const Vec3f n = cross(complex_.offset(v[0], v[1]), complex_.offset(v[0], v[2]));
-  const float length = std::sqrt(dot(n, n));
-  faces_[t] = length > 0 ? Face{n * (1 / length), length / 2} : Face{};
-}
-
-void QuadricBuilder::add_face(Index t) {
-  const Index c = 4 * t;
-  const Index v[3] = {complex_.corner_vertex[c], complex_.corner_vertex[c + 1],
-                      complex_.corner_vertex[c + 2]};
-  if (complex_.is_locked(v[0]) || complex_.is_locked(v[1]) || complex_.is_locked(v[2])) return;
-  const Vec3f e1 = complex_.offset(v[0], v[1]), e2 = complex_.offset(v[0], v[2]);
-  const Vec3f n = cross(e1, e2);
-  const float length = std::sqrt(dot(n, n));
-  if (!(length > 0)) return;
-  const float area = length / 2;
-  faces_[t] = {n * (1 / length), area};
-  for (const Index corner_v : v)
-    complex_.vertices[corner_v].quadric.add_plane(faces_[t].normal, area);
-  if (wedges_) add_attributes(c, v, e1, e2, n, area);
-}
-
-// The gradient of each attribute over the triangle, as a plane in (x, a).
-void QuadricBuilder::add_attributes(Index c, const Index (&v)[3], Vec3f e1, Vec3f e2, Vec3f n,
-                                    float area) {
-  const Index w[3] = {wedges_->corner_wedge[c], wedges_->corner_wedge[c + 1],
-                      wedges_->corner_wedge[c + 2]};
-  for (const Index wedge : w) wedges_->add_weight(wedge, area);
-  // Along a needle's short side the gradient has no bounds and says nothing.
-  const float longest = std::max(dot(e1, e1), dot(e2, e2));
-  if (4 * area * area < 1e-6f * longest * longest) return;
-  const Vec3f u1 = cross(e2, n) * (1 / (4 * area * area));
-  const Vec3f u2 = cross(n, e1) * (1 / (4 * area * area));
-  for (std::uint32_t k = 0; k < wedges_->attribute_count(); ++k) {
-    const float a0 = wedges_->attribute(w[0], k);
-    const float d1 = wedges_->attribute(w[1], k) - a0, d2 = wedges_->attribute(w[2], k) - a0;
-    const Vec3f gradient = {u1.x * d1 + u2.x * d2, u1.y * d1 + u2.y * d2, u1.z * d1 + u2.z * d2};
-    for (int i = 0; i < 3; ++i) {
-      complex_.vertices[v[i]].quadric.add_plane(gradient, area);
-      complex_.vertices[v[i]].quadric.weight -= area;  // counted once, with the face
-      if (attribute_quadrics_) attribute_quadrics_[v[i]].add_plane(gradient, area);
-      wedges_->add_gradient(w[i], k, gradient * area);
+// The gradient of each attribute over each triangle, as a plane in (x, a).
+void QuadricBuilder::add_attributes(Quadric* also) {
+  for (Index c = 0; c < complex_.corner_vertex.size(); c += 4) {
+    const Index* const v = &complex_.corner_vertex[c];
+    const Index* const w = &wedges_->corner_wedge[c];
+    if (complex_.is_locked(v[0]) || complex_.is_locked(v[1]) || complex_.is_locked(v[2])) continue;
+    const Vec3f e1 = complex_.offset(v[0], v[1]), e2 = complex_.offset(v[0], v[2]);
+    const Vec3f n = cross(e1, e2);
+    const float area = std::sqrt(dot(n, n)) / 2;
+    if (!(area > 0)) continue;
+    for (int i = 0; i < 3; ++i) wedges_->add_weight(w[i], area);
+    // Along a needle's short side the gradient has no bounds and says nothing.
+    const float longest = std::max(dot(e1, e1), dot(e2, e2));
+    if (4 * area * area < 1e-6f * longest * longest) continue;
+    const Vec3f u1 = cross(e2, n) * (1 / (4 * area * area));
+    const Vec3f u2 = cross(n, e1) * (1 / (4 * area * area));
+    for (std::uint32_t k = 0; k < wedges_->attribute_count(); ++k) {
+      const float a0 = wedges_->attribute(w[0], k);
+      const float d1 = wedges_->attribute(w[1], k) - a0, d2 = wedges_->attribute(w[2], k) - a0;
+      const Vec3f gradient = {u1.x * d1 + u2.x * d2, u1.y * d1 + u2.y * d2, u1.z * d1 + u2.z * d2};
+      for (int i = 0; i < 3; ++i) {
+        Quadric& sum = complex_.vertices[v[i]].quadric;
+        sum.add_plane(gradient, area);
+        sum.weight -= area;  // counted once, with the face
+        if (also) also[v[i]].add_plane(gradient, area);
+        wedges_->add_gradient(w[i], k, gradient * area);
+      }
     }
   }
 }
 
-void QuadricBuilder::add_edges(const Star& star, Quadric& quadric) {
+void QuadricBuilder::add_edges(const Star& star, Quadric& quadric) const {
   if (complex_.is_locked(star.vertex)) return;
   for (const StarEdge& edge : star.edges)
     if (!complex_.is_locked(edge.vertex)) add_edge(star, edge, quadric);
 }
 
-void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& quadric) {
+void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& quadric) const {
   float weight = kBorderWeight;
   if (edge.triangles == 2) {
     const Index second = edge.first, first = star.spokes[second / 2].more[second % 2];
     const Spoke &a = star.spokes[first / 2], &b = star.spokes[second / 2];
-    weight = fold_weight(a.corner / 4, b.corner / 4, first % 2 == second % 2);
+    weight = fold_weight(star.normal(first / 2), star.normal(second / 2), first % 2 == second % 2);
     if (!input_.group.empty() && input_.group[a.corner / 4] != input_.group[b.corner / 4])
       weight = std::max(weight, kSeamWeight);
     if (wedges_) weight = std::max(weight, seam_weight(a, first % 2, b, second % 2));
@@ -92,21 +73,13 @@ void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& q
   const float length_squared = dot(along, along);
   weight *= length_squared / static_cast<float>(edge.triangles);
   for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
-    const Vec3f face = faces_[star.spokes[i / 2].corner / 4].normal;
-    const Vec3f side = cross(along, face);
+    const Vec3f side = cross(along, star.normal(i / 2));
     const float length = std::sqrt(dot(side, side));
     if (length > 0)
       quadric.add_plane(side * (1 / length), weight);
     else if (length_squared > 0)  // a face without area: hold the line from all sides
       quadric.add_line(along * (1 / std::sqrt(length_squared)), weight);
   }
-}
-
-// Faces that lie on each other, back to back, do not hold their common edge; beyond a right angle
-// it needs holding more and more.
-float QuadricBuilder::fold_weight(Index a, Index b, bool same_direction) const {
-  const float cosine = dot(faces_[a].normal, faces_[b].normal) * (same_direction ? -1.f : 1.f);
-  return kBorderWeight * std::max(0.f, -cosine);
 }
 
 // An edge is a seam where its faces use different wedges; as much as their attributes differ.

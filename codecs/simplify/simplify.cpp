@@ -11,9 +11,7 @@ CollapseSequence simplify(const SimplifyInput& input, const SimplifyOptions& opt
                           const Progress& progress) {
   assert(input.positions.size() % 3 == 0 && input.triangles.size() % 3 == 0);
   assert(input.group.empty() || input.group.size() == input.triangles.size() / 3);
-  const bool has_wedges = !input.wedge_vertex.empty() || input.attribute_count > 0;
-  if (options.placement == Placement::subset && (options.metric == Metric::qem || !has_wedges))
-    return simplify_half_edges(input, options, progress);
+  if (options.placement == Placement::subset) return simplify_half_edges(input, options, progress);
   return simplify_edges(input, options, progress);
 }
 

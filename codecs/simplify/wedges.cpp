@@ -57,6 +57,11 @@ WedgeTable::WedgeTable(const SimplifyInput& input, double diagonal)
   }
 }
 
+std::optional<WedgeTable> wedge_table(const SimplifyInput& input, double diagonal) {
+  if (input.wedge_vertex.empty() && input.attribute_count == 0) return std::nullopt;
+  return WedgeTable(input, diagonal);
+}
+
 float WedgeTable::largest_difference(Index a, Index b) const {
   float largest = 0;
   for (std::uint32_t k = 0; k < count_; ++k)

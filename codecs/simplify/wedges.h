@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -101,5 +102,8 @@ class WedgeTable {
   std::vector<Index> other_;
   std::uint64_t epoch_ = 0;
 };
+
+/// None when each vertex has one wedge and no attributes.
+std::optional<WedgeTable> wedge_table(const SimplifyInput& input, double diagonal);
 
 }  // namespace pstrip
