@@ -14,6 +14,7 @@
 #include "cli/stripifier_table.h"
 #include "cli/stripify_tetra.h"
 #include "codecs/stripify/delaunay.h"
+#include "converters/capacity.h"
 
 namespace pstrip::cli {
 namespace {
@@ -126,6 +127,11 @@ ExitCode stripify_model(Model model, const Options& options, const StripOptions&
   if (takes_points && has_too_many_points(model))
     return refuse_input(options, {ErrorCode::over_limit, "more points than can be triangulated"},
                         io);
+  for (const Mesh& mesh : model.meshes)
+    if (const auto fits =
+            check_stripping_capacity(work_size(mesh), options.limits.limits.memory_bytes);
+        !fits)
+      return refuse_input(options, fits.error(), io);
   const std::string output = options.output();
   const StripFigures figures =
       takes_points ? measure_point_strips(model, *algorithm.points, strip_options, !output.empty())

@@ -11,6 +11,17 @@ namespace {
 constexpr std::uint64_t kBytesATriangle = 180;
 constexpr std::uint64_t kBytesAVertex = 96;
 constexpr std::uint64_t kBytesAnAttribute = 24;
+constexpr std::uint64_t kStrippingBytesATriangle = 130;
+
+Result<void> check(const WorkSize& size, std::uint64_t bytes, std::string_view what,
+                   std::uint64_t memory_bytes) {
+  if (const std::uint64_t corners = 3 * size.triangles; corners > kMaxCount)
+    return fail(ErrorCode::over_limit,
+                over_limit_message(corners, "corners of triangles", kMaxCount));
+  if (bytes > memory_bytes)
+    return fail(ErrorCode::over_limit, over_limit_message(bytes, what, memory_bytes));
+  return {};
+}
 
 }  // namespace
 
@@ -27,14 +38,16 @@ std::uint64_t encoding_bytes(const WorkSize& size) {
          kBytesAnAttribute * size.attribute_numbers * size.wedges;
 }
 
+std::uint64_t stripping_bytes(const WorkSize& size) {
+  return kStrippingBytesATriangle * size.triangles;
+}
+
 Result<void> check_capacity(const WorkSize& size, std::uint64_t memory_bytes) {
-  if (const std::uint64_t corners = 3 * size.triangles; corners > kMaxCount)
-    return fail(ErrorCode::over_limit,
-                over_limit_message(corners, "corners of triangles", kMaxCount));
-  if (const std::uint64_t bytes = encoding_bytes(size); bytes > memory_bytes)
-    return fail(ErrorCode::over_limit,
-                over_limit_message(bytes, "bytes of memory to encode", memory_bytes));
-  return {};
+  return check(size, encoding_bytes(size), "bytes of memory to encode", memory_bytes);
+}
+
+Result<void> check_stripping_capacity(const WorkSize& size, std::uint64_t memory_bytes) {
+  return check(size, stripping_bytes(size), "bytes of memory to stripify", memory_bytes);
 }
 
 }  // namespace pstrip

@@ -26,4 +26,10 @@ std::uint64_t encoding_bytes(const WorkSize& size);
 /// errors  over_limit, with the figure that does not fit
 Result<void> check_capacity(const WorkSize& size, std::uint64_t memory_bytes);
 
+/// Bytes that stripifying alone takes besides the mesh, as measured with the algorithm `best`.
+std::uint64_t stripping_bytes(const WorkSize& size);
+
+/// The same question for stripifying a mesh.
+Result<void> check_stripping_capacity(const WorkSize& size, std::uint64_t memory_bytes);
+
 }  // namespace pstrip

@@ -60,7 +60,7 @@ Result<ByteView> Data::buffer(Index i, bool compressed) {
     if (!loaded_[i]) {
       if (is_data_uri(buffer.uri)) {
         if (!budget_.take(buffer.uri.size()))
-          return located({ErrorCode::over_limit, "buffer exceeds the memory limit"});
+          return located({ErrorCode::over_limit, budget_.refusal(buffer.uri.size())});
         Result<DataUri> uri = decode_data_uri(buffer.uri);
         if (!uri) return located(std::move(uri).error());
         loaded_[i] = std::move(uri->data);
@@ -72,7 +72,7 @@ Result<ByteView> Data::buffer(Index i, bool compressed) {
         Result<Bytes> file = read_file_(*path);
         if (!file) return tl::unexpected(std::move(file).error());
         if (!budget_.take(file->size()))
-          return located({ErrorCode::over_limit, "buffer exceeds the memory limit"});
+          return located({ErrorCode::over_limit, budget_.refusal(file->size())});
         loaded_[i] = std::move(*file);
       }
     }
@@ -109,7 +109,7 @@ Result<void> Data::copy_elements(const Accessor& accessor, Bytes& out) {
   const Result<ByteView> in = range(accessor.view, accessor.offset, bytes);
   if (!in) return tl::unexpected(in.error());
   if (!budget_.take(accessor.count * element))
-    return fail(ErrorCode::over_limit, "accessor exceeds the memory limit");
+    return fail(ErrorCode::over_limit, budget_.refusal(accessor.count * element));
   out.resize(accessor.count * element);
   if (stride == element) {
     std::memcpy(out.data(), in->data(), out.size());
@@ -150,7 +150,8 @@ Result<Bytes> Data::elements(Index i) {
   };
   if (accessor.count == 0) return out;
   if (accessor.count > kMaxCount)
-    return located({ErrorCode::over_limit, "accessor has too many elements"});
+    return located(
+        {ErrorCode::over_limit, over_limit_message(accessor.count, "elements", kMaxCount)});
   const std::uint64_t bytes = accessor.count * accessor.element_bytes();
   if (accessor.view == kNone) {
     if (!budget_.take_zeros(bytes))

@@ -11,12 +11,16 @@ namespace pstrip::gltf {
 class Budget {
  public:
   explicit Budget(const Limits& limits)
-      : left_(limits.memory_bytes), zeros_left_(limits.memory_bytes / 64) {}
+      : limit_(limits.memory_bytes), left_(limit_), zeros_left_(limit_ / 64) {}
 
   bool take(std::uint64_t bytes) {
     if (bytes > left_) return false;
     left_ -= bytes;
     return true;
+  }
+  /// Why take() said no.
+  std::string refusal(std::uint64_t bytes) const {
+    return over_limit_message(limit_ - left_ + bytes, "bytes of memory", limit_);
   }
   /// For elements that no byte of the file backs; a count costs nothing there, so the share is
   /// small.
@@ -27,7 +31,7 @@ class Budget {
   }
 
  private:
-  std::uint64_t left_, zeros_left_;
+  std::uint64_t limit_, left_, zeros_left_;
 };
 
 /// The bytes behind a document's accessors and views. Buffers are loaded when first used.

@@ -4,6 +4,7 @@
 #include <bit>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/parallel.h"
 
@@ -210,12 +211,44 @@ class MeshReader {
         corners_left_(limits.corners) {}
 
   Result<PrimitiveMap> read() {
+    if (const Result<void> room = expect_room(); !room) return tl::unexpected(room.error());
     for (Index m = 0; m < document_.meshes.size(); ++m)
       if (const Result<void> read = read_mesh(m); !read) return tl::unexpected(read.error());
     return std::move(map_);
   }
 
  private:
+  /// Refuses by the counts that the JSON tells alone, before a buffer is touched. What several
+  /// primitives share counts once, so that nothing is refused that would fit.
+  Result<void> expect_room() const {
+    constexpr std::uint64_t kHuge = std::uint64_t{1} << 36;  // a sum of such does not wrap
+    const auto count_of = [&](Index accessor) {
+      return std::min(document_.accessors[accessor].count, kHuge);
+    };
+    std::set<Index> seen, seen_positions;
+    std::uint64_t wedges = 0, corners = 0, bytes = 0;
+    for (const GltfMesh& mesh : document_.meshes)
+      for (const Primitive& in : mesh.primitives) {
+        if (!in.has_position()) continue;
+        for (const auto& [name, i] : in.attributes) {
+          if (name == "POSITION" && seen_positions.insert(i).second) wedges += count_of(i);
+          if (seen.insert(i).second) bytes += count_of(i) * document_.accessors[i].element_bytes();
+        }
+        const bool indexed = in.indices != kNone;
+        const std::uint64_t more =
+            most_corners(in.mode, count_of(indexed ? in.indices : in.attributes.front().second));
+        corners += more;
+        bytes += more * 2 * sizeof(Index);
+      }
+    const auto over = [](std::uint64_t figure, std::string_view what, std::uint64_t limit) {
+      return refuse(ErrorCode::over_limit, over_limit_message(figure, what, limit), "/meshes");
+    };
+    if (wedges > limits_.wedges) return over(wedges, "wedges", limits_.wedges);
+    if (corners > limits_.corners) return over(corners, "face corners", limits_.corners);
+    if (bytes > limits_.memory_bytes) return over(bytes, "bytes of memory", limits_.memory_bytes);
+    return {};
+  }
+
   Result<void> read_mesh(Index m) {
     const GltfMesh& in = document_.meshes[m];
     const std::size_t first_mesh = out_.size();
@@ -228,7 +261,10 @@ class MeshReader {
     for (std::size_t i = first_mesh; i < out_.size(); ++i) {
       weld(out_[i], limits_.threads);
       if (out_[i].vertex_count() > limits_.vertices - vertices_)
-        return refuse(ErrorCode::over_limit, "too many vertices", "/meshes/" + std::to_string(m));
+        return refuse(
+            ErrorCode::over_limit,
+            over_limit_message(vertices_ + out_[i].vertex_count(), "vertices", limits_.vertices),
+            "/meshes/" + std::to_string(m));
       vertices_ += out_[i].vertex_count();
       canonicalize(out_[i]);
     }
@@ -299,7 +335,10 @@ class MeshReader {
     const std::uint64_t count = document_.accessors[key.front()].count;
     const std::size_t first = mesh.position.elements();
     if (count > wedges_left_ || count > kMaxCount - first)
-      return refuse(ErrorCode::over_limit, "too many wedges", path);
+      return refuse(ErrorCode::over_limit,
+                    over_limit_message(limits_.wedges - wedges_left_ + count, "wedges",
+                                       std::min<std::uint64_t>(limits_.wedges, kMaxCount)),
+                    path);
     wedges_left_ -= count;
     std::size_t next = 0;
     for (const auto& [name, accessor] : in.attributes) {
@@ -324,7 +363,8 @@ class MeshReader {
     }
     if (auto checked = check(in, path); !checked) return checked;
     if (++primitives_ > limits_.meshes)
-      return refuse(ErrorCode::over_limit, "too many primitives", path);
+      return refuse(ErrorCode::over_limit,
+                    over_limit_message(primitives_, "primitives", limits_.meshes), path);
     Draft& draft = draft_for(gltf_mesh, in);
     const Result<Index> first = add_wedges(in, draft, path);
     if (!first) return tl::unexpected(first.error());
@@ -340,7 +380,10 @@ class MeshReader {
     if (leaves_indices_over(in.mode, count))
       dropped_.push_back("indices beyond whole faces of " + path);
     if (corners > corners_left_ || corners > kMaxCount - mesh.corners.size())
-      return refuse(ErrorCode::over_limit, "too many face corners", path);
+      return refuse(ErrorCode::over_limit,
+                    over_limit_message(limits_.corners - corners_left_ + corners, "face corners",
+                                       std::min<std::uint64_t>(limits_.corners, kMaxCount)),
+                    path);
     corners_left_ -= corners;
     std::vector<Index> indices;
     if (indexed) {
@@ -349,7 +392,7 @@ class MeshReader {
       indices = std::move(*read);
     }
     if (!budget_.take(corners * 2 * sizeof(Index)))
-      return refuse(ErrorCode::over_limit, "faces exceed the memory limit", path);
+      return refuse(ErrorCode::over_limit, budget_.refusal(corners * 2 * sizeof(Index)), path);
     FaceWriter faces(mesh, group);
     if (indexed)
       faces.write(in.mode, indices.size(), [&](std::size_t i) { return *first + indices[i]; });

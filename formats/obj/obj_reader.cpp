@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "formats/obj/census.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/names.h"
 #include "formats/obj/numbers.h"
@@ -72,11 +73,41 @@ class ObjReader {
       : text_(as_text(file)), read_file_(read_file), limits_(limits) {}
 
   Result<Model> read() {
-    if (!read_statements() || !check_references() || !build()) return tl::unexpected(*error_);
+    if (!expect_room() || !read_statements() || !check_references() || !build())
+      return tl::unexpected(*error_);
     return std::move(model_);
   }
 
  private:
+  std::uint64_t most_vertices() const {
+    return std::min<std::uint64_t>(limits_.vertices, kMaxCount);
+  }
+  std::uint64_t most_tuples() const { return std::min<std::uint64_t>(limits_.wedges, kMaxCount); }
+  std::uint64_t most_corners() const { return std::min<std::uint64_t>(limits_.corners, kMaxCount); }
+
+  /// Refuses a text that is long enough to hold more than the limits, and does, before it is read.
+  bool expect_room() {
+    constexpr std::uint64_t kShortestVertex = 8;     // "v 0 0 0\n"
+    constexpr std::uint64_t kShortestTuple = 5;      // "vt 0\n"
+    constexpr std::uint64_t kShortestFace = 4;       // "f 1\n"
+    constexpr std::uint64_t kMemoryACharacter = 12;  // of the shortest vertices
+    const std::uint64_t size = text_.size();
+    if (size / kShortestVertex <= most_vertices() && size / kShortestTuple <= most_tuples() &&
+        size / kShortestFace <= most_corners() && size * kMemoryACharacter <= limits_.memory_bytes)
+      return true;
+    const obj::Census census = obj::take_census(text_);
+    const auto over = [&](std::uint64_t figure, std::string_view what, std::uint64_t limit) {
+      return figure > limit &&
+             !refuse_at(ErrorCode::over_limit, over_limit_message(figure, what, limit), 0);
+    };
+    return !over(census.vertices, "vertices", most_vertices()) &&
+           !over(census.tuples, "vt and vn lines", 2 * most_tuples()) &&
+           !over(census.faces, "face corners", most_corners()) &&
+           !over(census.vertices * kVertexBytes + census.tuples * kTupleBytes +
+                     census.faces * kCornerBytes,
+                 "bytes of memory", limits_.memory_bytes);
+  }
+
   // Lines.
 
   bool read_statements() {
@@ -96,7 +127,8 @@ class ObjReader {
       end_ = p_ + line.size();
       if (!read_statement()) return false;
       if (charged_ > limits_.memory_bytes)
-        return refuse(ErrorCode::over_limit, "needs more memory than the limit allows");
+        return refuse(ErrorCode::over_limit,
+                      over_limit_message(charged_, "bytes of memory", limits_.memory_bytes));
       at = end + 1;
     }
     if (!statements_ && first_unknown_)
@@ -212,8 +244,9 @@ class ObjReader {
     std::size_t count = 0;
     if (!read_numbers(numbers, 3, count)) return false;
     if (count == 5) return refuse(ErrorCode::corrupt, "five numbers in a vertex");
-    if (vertices_.count >= std::min<std::uint64_t>(limits_.vertices, kMaxCount))
-      return refuse(ErrorCode::over_limit, "more vertices than the limit allows");
+    if (vertices_.count >= most_vertices())
+      return refuse(ErrorCode::over_limit,
+                    over_limit_message(vertices_.count + 1, "vertices", most_vertices()));
     for (std::size_t i = 0; i < 3; ++i) {
       values_.position.push_back(numbers[i].value);
       values_.position_fits &= numbers[i].fits_f32;
@@ -272,8 +305,9 @@ class ObjReader {
 
   bool check_tuple_count(std::uint64_t count) {
     charge(kTupleBytes);
-    return count <= std::min<std::uint64_t>(limits_.wedges, kMaxCount) ||
-           refuse(ErrorCode::over_limit, "more vt or vn lines than the limit allows");
+    return count <= most_tuples() ||
+           refuse(ErrorCode::over_limit,
+                  over_limit_message(count, "vt or vn lines", most_tuples()));
   }
 
   bool read_face(FaceKind kind) {
@@ -284,8 +318,9 @@ class ObjReader {
     }
     const std::size_t corners = corner_vertex_.size() - first;
     if (corners == 0) return refuse_short("an element without a corner");
-    if (corner_vertex_.size() > std::min<std::uint64_t>(limits_.corners, kMaxCount))
-      return refuse(ErrorCode::over_limit, "more face corners than the limit allows");
+    if (corner_vertex_.size() > most_corners())
+      return refuse(ErrorCode::over_limit,
+                    over_limit_message(corner_vertex_.size(), "face corners", most_corners()));
     if (kind != FaceKind::points) end_face(kind);
     charge(corners * kCornerBytes);
     return error_ == std::nullopt;
@@ -453,8 +488,10 @@ class ObjReader {
 
   bool build() {
     count_unused_tuples();
-    if (corner_vertex_.size() + vertices_.count > kMaxCount)  // wedges are numbered in 32 bits
-      return refuse_at(ErrorCode::over_limit, "more wedges than the limit allows", 0);
+    // Wedges are numbered in 32 bits.
+    if (const std::uint64_t most = corner_vertex_.size() + vertices_.count; most > kMaxCount)
+      return refuse_at(ErrorCode::over_limit,
+                       over_limit_message(most, "corners and vertices", kMaxCount), 0);
     WedgeTable wedges = obj::build_wedges({.vertex_count = static_cast<Index>(vertices_.count),
                                            .corner_vertex = corner_vertex_,
                                            .corner_texcoord = corner_texcoord_,
@@ -462,8 +499,9 @@ class ObjReader {
                                            .texcoord = texcoord_,
                                            .texcoord_flags = texcoord_flags_,
                                            .normal = normal_});
-    if (wedges.vertex.size() > std::min<std::uint64_t>(limits_.wedges, kMaxCount))
-      return refuse_at(ErrorCode::over_limit, "more wedges than the limit allows", 0);
+    if (wedges.vertex.size() > most_tuples())
+      return refuse_at(ErrorCode::over_limit,
+                       over_limit_message(wedges.vertex.size(), "wedges", most_tuples()), 0);
     wedges_ = std::move(wedges);
     if (corner_vertex_.empty()) take_cloud_attributes();
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/limits.h"
 #include "core/parallel.h"
 #include "formats/ply/ply_body.h"
 #include "formats/ply/ply_numbers.h"
@@ -140,6 +141,9 @@ class FaceAppender {
   }
 
   bool fits(std::uint64_t corners) const { return corners <= limit_ - used_; }
+  std::string refusal(std::uint64_t corners) const {
+    return over_limit_message(used_ + corners, "face corners", limit_);
+  }
   /// Room for that many corners; precondition: fits().
   Index* room(std::size_t corners) {
     if (lists_.corners.size() - used_ < corners)
@@ -220,8 +224,7 @@ class RowReader {
   }
 
   bool read_face(ComponentType type, std::uint64_t count) {
-    if (!faces_->fits(count))
-      return in_.refuse(ErrorCode::over_limit, "more face corners than the limit");
+    if (!faces_->fits(count)) return in_.refuse(ErrorCode::over_limit, faces_->refusal(count));
     Index* const room = faces_->room(count);
     const bool good = visit_type(type, [&](auto value) {
       for (std::uint64_t i = 0; i < count; ++i) {
@@ -241,7 +244,9 @@ class RowReader {
     const std::size_t used = list.values.size();
     if (count > (limits_.memory_bytes - std::min<std::uint64_t>(used, limits_.memory_bytes)) /
                     size_of(type))
-      return in_.refuse(ErrorCode::over_limit, "lists need more memory than the limit");
+      return in_.refuse(
+          ErrorCode::over_limit,
+          over_limit_message(used + count * size_of(type), "bytes of lists", limits_.memory_bytes));
     list.sizes.push_back(static_cast<std::uint32_t>(count));
     list.values.resize(used + count * size_of(type));
     std::byte* to = list.values.data() + used;
@@ -290,8 +295,7 @@ bool read_plain_faces(BinaryValues<kSwap>& in, const Element& element, FaceLists
     if (count > 127 && is_signed_integer(property.count_type))
       return in.refuse_value(ErrorCode::corrupt, "list count is negative", 1);
     if (!in.has(count, 4)) return false;
-    if (!faces.fits(count))
-      return in.refuse(ErrorCode::over_limit, "more face corners than the limit");
+    if (!faces.fits(count)) return in.refuse(ErrorCode::over_limit, faces.refusal(count));
     Index* const room = faces.room(count);
     const std::byte* from = in.data();
     for (std::size_t i = 0; i < count; ++i, from += 4) {

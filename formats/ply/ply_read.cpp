@@ -100,7 +100,8 @@ class ModelReader {
     Result<Header> header = parse_header(file_, limits_);
     if (!header) return tl::unexpected<Error>(header.error());
     kept_.header = *std::move(header);
-    if (!plan() || !read_body() || !keep_rest()) return tl::unexpected<Error>(std::move(error_));
+    if (!plan() || !expect_room() || !read_body() || !keep_rest())
+      return tl::unexpected<Error>(std::move(error_));
     if (has_mesh_) {
       if (!expand_strips() || !set_wedge_vertices() || !set_texcoords() || !set_groups())
         return tl::unexpected<Error>(std::move(error_));
@@ -176,6 +177,24 @@ class ModelReader {
     if (!is_integer(strips->properties[0].type))
       return refuse(ErrorCode::unsupported, "vertex indices are not integers", "tristrips");
     return true;
+  }
+
+  /// Refuses by the rows that the header announces, before the first is read.
+  bool expect_room() {
+    constexpr std::uint64_t kMost = ~std::uint64_t{0};
+    std::uint64_t bytes = 0;
+    for (const Element& e : kept_.header.elements) {
+      std::uint64_t row_bytes = 0;
+      for (const Property& property : e.properties)
+        row_bytes += property.is_list() ? 0 : size_of(property.type);
+      if (row_bytes == 0) continue;
+      bytes += std::min(e.count, (kMost - bytes) / row_bytes) * row_bytes;
+    }
+    return bytes <= limits_.memory_bytes ||
+           refuse({ErrorCode::over_limit,
+                   over_limit_message(bytes, "bytes of memory", limits_.memory_bytes),
+                   kept_.header.body,
+                   {}});
   }
 
   bool read_body() {

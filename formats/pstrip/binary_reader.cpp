@@ -149,7 +149,9 @@ Result<std::size_t> BinaryParser::State::parse(ByteView bytes) {
     if (header && whole > header->file_bytes - offset)
       return corrupt("chunk runs past the file size that PSHD declares");
     if (kept_bytes + length > limits.memory_bytes)
-      return fail(ErrorCode::over_limit, "chunks exceed the memory limit", offset);
+      return fail(ErrorCode::over_limit,
+                  over_limit_message(kept_bytes + length, "bytes of chunks", limits.memory_bytes),
+                  offset);
     if (whole > left.size()) break;
 
     const ByteView covered = left.first(static_cast<std::size_t>(whole) - 4);
@@ -233,12 +235,18 @@ Result<void> BinaryParser::State::read_header(ReadIo& io) {
     return fail(ErrorCode::unsupported, "version of the format is not known", offset);
   if (h.profile != 0) return fail(ErrorCode::unsupported, "profile is not known", offset);
   if (h.flags != 0) return fail(ErrorCode::unsupported, "flags are not known", offset);
-  const auto over = [&](const char* what) { return fail(ErrorCode::over_limit, what, offset); };
-  if (h.meshes > limits.meshes) return over("more meshes than the limit");
-  if (h.vertices > limits.vertices) return over("more vertices than the limit");
-  if (h.wedges > limits.wedges) return over("more wedges than the limit");
-  if (h.map_entries > limits.corners) return over("more index-map entries than the limit");
-  if (h.decoder_memory > limits.memory_bytes) return over("needs more memory than the limit");
+  struct Claim {
+    std::uint64_t figure;
+    const char* what;
+    std::uint64_t limit;
+  };
+  for (const auto& [figure, what, limit] :
+       {Claim{h.meshes, "meshes", limits.meshes}, Claim{h.vertices, "vertices", limits.vertices},
+        Claim{h.wedges, "wedges", limits.wedges},
+        Claim{h.map_entries, "index-map entries", limits.corners},
+        Claim{h.decoder_memory, "bytes of memory", limits.memory_bytes}})
+    if (figure > limit)
+      return fail(ErrorCode::over_limit, over_limit_message(figure, what, limit), offset);
   if (h.file_bytes < kSignature.size() + chunk_bytes(kHeaderBytes) || h.base_end > h.file_bytes)
     return corrupt("PSHD contradicts itself on the file's size");
   header = h;

@@ -35,13 +35,13 @@ class Context {
  public:
   Context(ByteView document, const Limits& limits) : document_(document), limits_(limits) {}
 
-  void fail(const XMLElement& at, const char* message, std::string_view attribute = {},
+  void fail(const XMLElement& at, std::string_view message, std::string_view attribute = {},
             ErrorCode code = ErrorCode::corrupt) {
     if (error_) return;
     const auto line = static_cast<std::uint64_t>(at.GetLineNum());
     std::string path = "line " + std::to_string(line) + ", " + path_of(at);
     if (!attribute.empty()) path.append("/@").append(attribute);
-    error_ = Error{code, message, offset_of_line(document_, line), std::move(path)};
+    error_ = Error{code, std::string(message), offset_of_line(document_, line), std::move(path)};
   }
   bool ok() const { return !error_; }
   const std::optional<Error>& error() const { return error_; }
@@ -636,8 +636,13 @@ class Reader {
 
   void check_totals(const XMLElement& at) {
     const Limits& limits = in_.limits();
-    if (vertices_ > limits.vertices || wedges_ > limits.wedges || corners_ > limits.corners)
-      in_.fail(at, "more vertices, wedges or corners than the limit", {}, ErrorCode::over_limit);
+    const auto check = [&](std::uint64_t figure, const char* what, std::uint64_t limit) {
+      if (figure > limit)
+        in_.fail(at, over_limit_message(figure, what, limit), {}, ErrorCode::over_limit);
+    };
+    check(vertices_, "vertices", limits.vertices);
+    check(wedges_, "wedges", limits.wedges);
+    check(corners_, "corners and map entries", limits.corners);
   }
 
   Context& in_;

@@ -1,8 +1,11 @@
 """Exit codes and messages of every subcommand, as a script meets them."""
 
+import os
 import unittest
 
-from support import GOLDEN, ProgramTest
+from support import GOLDEN, GOLDEN_XML, ProgramTest
+
+HUGE = ((["convert"], ["out.pstrip"]), (["stripify"], []), (["compare", "tube.obj"], []), (["inspect"], []))
 
 # arguments, exit code, part of standard output, part of standard error
 CASES = [
@@ -81,7 +84,22 @@ CASES = [
     (["convert", "corrupt.pstrip", "out.ply"], 3, "", "corrupt.pstrip: corrupt: "),
     (["extract", "corrupt.pstrip", "out.ply"], 3, "", "corrupt.pstrip: corrupt: "),
     (["convert", "empty.pstrip", "out.ply"], 3, "", "empty.pstrip: truncated: "),
-    (["convert", "tube.obj", "out.ply", "--max-vertices", "5"], 3, "", "over the limit: "),
+    # Beyond the limits: refused at once, with the figure that did not fit.
+    *(([*command, "tube.obj", *rest, "--max-vertices", "5"], 3, "",
+       "over the limit: 192 vertices, more than the limit of 5")
+      for command, rest in ((["convert"], ["out.ply"]), (["stripify"], []), (["compare", "tube.obj"], []))),
+    (["stripify", "sheets.ply", "--max-memory", "9000"], 3, "", "bytes of memory to stripify, more than"),
+    (["convert", "tube.obj", "out.pstrip", "--max-memory", "70000"], 3, "", "bytes of memory to encode, more than"),
+    *(([*command, "huge.ply", *rest], 3, "", "huge.ply: over the limit: 65000000214 bytes, more than")
+      for command, rest in HUGE),
+    *(([*command, "huge.ply", *rest, "--max-memory", "99000000000"], 3, "",
+       "over the limit: 5000000000 faces, more than the limit of 1073741824") for command, rest in HUGE),
+    (["convert", "huge.ply", "out.pstrip", "--max-memory", "99000000000", "--max-corners", "99000000000"], 3, "",
+     "over the limit: 5000000000 faces, more than the limit of 4294967040"),
+    (["convert", "huge.gltf", "out.ply"], 3, "",
+     "over the limit: 3000000000 face corners, more than the limit of 1073741824"),
+    (["convert", "good.pstrip", "out.ply", "--max-vertices", "2"], 3, "", "vertices, more than the limit of 2"),
+    (["convert", "good.pstripx", "out.ply", "--max-vertices", "2"], 3, "", "vertices, more than the limit of 2"),
     (["validate", "good.pstrip", "--max-vertices", "2"], 3, "over the limit", ""),
     # What the program does not know.
     (["convert", "noise.bin", "out.ply"], 5, "", "unsupported: "),
@@ -94,6 +112,24 @@ CASES = [
     # Differences.
     (["compare", "tube.obj", "good.pstrip"], 7, "different\n", ""),
 ]
+
+# A file with all bytes that its header asks for, none of which take room on the disk.
+HUGE_PLY = """ply
+format binary_little_endian 1.0
+element vertex 3
+property float x
+property float y
+property float z
+element face 5000000000
+property list uchar int vertex_indices
+end_header
+"""
+HUGE_GLTF = """{"asset": {"version": "2.0"},
+"buffers": [{"uri": "huge.bin", "byteLength": 12000000036}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 12000000000}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3},
+{"bufferView": 1, "componentType": 5125, "type": "SCALAR", "count": 3000000000}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]}"""
 
 CORRUPT_PLY = """ply
 format ascii 1.0
@@ -124,8 +160,13 @@ class ExitCodes(ProgramTest):
         self.write("corrupt.pstrip", golden[:half] + bytes([golden[half] ^ 255]) + golden[half + 1:])
         self.write("empty.pstrip", b"")
         self.write("corrupt.ply", CORRUPT_PLY)
+        self.write("sheets.ply", CORRUPT_PLY.replace("face 1", "face 100").replace("3 0 1 7\n", "3 0 1 2\n" * 100))
         self.write("noise.bin", bytes((i * 73 + 41) % 256 for i in range(1, 500)))
         self.write("needs.gltf", NEEDS_GLTF)
+        self.write("good.pstripx", GOLDEN_XML.read_bytes())
+        os.truncate(self.write("huge.ply", HUGE_PLY), len(HUGE_PLY) + 36 + 13 * 5_000_000_000)
+        self.write("huge.gltf", HUGE_GLTF)
+        os.truncate(self.write("huge.bin", b""), 12_000_000_036)
         (self.folder / "folder.ply").mkdir()
 
     def test_table(self):

@@ -68,7 +68,7 @@ const BadJson kBadJson[] = {
     {"count_beyond_bytes",
      BUFFER VIEW
      R"("accessors":[{"bufferView":0,"componentType":5126,"count":4000000000,"type":"VEC3"}],)" POINTS,
-     ErrorCode::over_limit, "/meshes/0/primitives/0"},
+     ErrorCode::over_limit, "/meshes"},
     {"many_zeros",
      R"("accessors":[{"componentType":5126,"count":200000000,"type":"VEC3"}],)" POINTS,
      ErrorCode::over_limit, "/accessors/0"},
@@ -242,6 +242,31 @@ TEST(BrokenGltf, LimitsAreKept) {
   EXPECT_TRUE(refuses([](Limits& l) { l.string_bytes = 2; }));
   EXPECT_TRUE(refuses([](Limits& l) { l.memory_bytes = 100; }));
   EXPECT_TRUE(refuses([](Limits& l) { l.xml_depth = 4; }));
+}
+
+/// The JSON alone tells; the buffer is not asked for.
+TEST(BrokenGltf, CountsThatDoNotFitAreRefusedBeforeWorkStarts) {
+  const auto refusal = [](const std::string& positions, const std::string& indices) {
+    bool asked = false;
+    const ReadFile never = [&](const std::string&) -> Result<Bytes> {
+      asked = true;
+      return fail(ErrorCode::io, "not there");
+    };
+    const std::string text =
+        R"({"asset":{"version":"2.0"},"buffers":[{"uri":"b.bin","byteLength":40000000000}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":40000000000}],"accessors":[)"
+        R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+        positions + R"(},{"bufferView":0,"componentType":5125,"type":"SCALAR","count":)" + indices +
+        R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}]})";
+    const auto model = read_gltf(as_bytes(text), never);
+    EXPECT_FALSE(asked);
+    return model ? "" : model.error().message;
+  };
+  EXPECT_EQ(refusal("3", "3000000000"),
+            "3000000000 face corners, more than the limit of 1073741824");
+  EXPECT_EQ(refusal("300000000", "3"), "300000000 wedges, more than the limit of 268435456");
+  EXPECT_EQ(refusal("100000000", "1000000000"),
+            "9200000000 bytes of memory, more than the limit of 8589934592");
 }
 
 /// Each node has the next one as its child twice: 2^40 places in the scene.

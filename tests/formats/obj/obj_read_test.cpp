@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "formats/obj/census.h"
 #include "tests/formats/obj/support.h"
 
 namespace pstrip::test {
@@ -401,6 +402,30 @@ TEST(ReadObj, KeepsWithinItsLimits) {
     ASSERT_FALSE(model);
     EXPECT_EQ(model.error().code, ErrorCode::over_limit) << model.error().message;
   }
+}
+
+// The beginnings of lines tell before a number is read: the one that is none stays unseen.
+TEST(ReadObj, RefusesWhatDoesNotFitBeforeWorkStarts) {
+  std::string text = "v wrong\n";
+  for (int i = 0; i < 999; ++i) text += "v 0 0 0\nvt 0\nvn 0 0 1\nf 1/1/1 1/1/1 1/1/1\n";
+  const auto message = [&](const Limits& limits) {
+    const auto model = read_obj(as_bytes(text), {}, limits);
+    return model ? "" : model.error().message;
+  };
+  EXPECT_EQ(message({.vertices = 900}), "1000 vertices, more than the limit of 900");
+  EXPECT_EQ(message({.wedges = 900}), "1998 vt and vn lines, more than the limit of 1800");
+  EXPECT_EQ(message({.corners = 900}), "999 face corners, more than the limit of 900");
+  EXPECT_EQ(message({.memory_bytes = 150'000}),
+            "195900 bytes of memory, more than the limit of 150000");
+  EXPECT_EQ(message({.vertices = 1000}), "not a number, or not in the range of a double");
+}
+
+TEST(ReadObj, CountsNoStatementsInContinuedLines) {
+  std::string text;
+  for (int i = 0; i < 5; ++i) text += "v 0 0 0\nl \\\nf 1 \\\r\nv 0 0 0\n#\\\nv 1 1 1\n";
+  const obj::Census census = obj::take_census(text);
+  EXPECT_EQ(census.vertices, 5u);
+  EXPECT_EQ(census.faces, 0u);
 }
 
 TEST(ReadObj, DoesNotMultiplyALongObjectName) {

@@ -479,6 +479,21 @@ TEST(ReadPly, RejectsHugePromisesAtOnce) {
     }
 }
 
+TEST(ReadPly, NamesTheFigureThatDoesNotFit) {
+  const auto message = [](const std::string& elements, const Limits& limits = {}) {
+    const auto model = read_ply(as_bytes(little(elements, kZeros)), limits);
+    return model ? "" : model.error().message;
+  };
+  EXPECT_EQ(message(vertices(300'000'000)), "300000000 vertices, more than the limit of 268435456");
+  const std::string faces = "element face 5000000000\n" + kFace;
+  EXPECT_EQ(message(vertices(1) + faces), "5000000000 faces, more than the limit of 1073741824");
+  EXPECT_EQ(message(vertices(1) + faces, {.corners = 1ull << 40}),
+            "5000000000 faces, more than the limit of 4294967040");
+  EXPECT_EQ(
+      message(vertices(200'000'000) + "element face 900000000\n" + kFace + "property double a\n"),
+      "9600000000 bytes of memory, more than the limit of 8589934592");
+}
+
 TEST(ReadPly, KeepsToItsLimits) {
   const std::string file = ascii(vertices(3, "property list uchar int near\n") + faces(1) +
                                  "end_header\n0 0 0 2 1 2\n1 0 0 0\n0 1 0 0\n3 0 1 2\n");

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace pstrip::obj {
+
+/// How many statements a text has at least: those that begin a line without a blank before them.
+struct Census {
+  std::uint64_t vertices = 0;  ///< v
+  std::uint64_t tuples = 0;    ///< vt and vn
+  std::uint64_t faces = 0;     ///< f
+};
+
+/// Looks at the beginnings of lines only; many times quicker than reading them.
+Census take_census(std::string_view text);
+
+}  // namespace pstrip::obj
