@@ -94,11 +94,10 @@ void Complex::gather(Index vertex, Star& star) {
   const auto corners = ring(vertex);
   const Index epoch = new_epoch();
   star.vertex = vertex;
-  if (star.spoke_buffer.size() < corners.size()) star.spoke_buffer.resize(corners.size());
-  star.spokes = {star.spoke_buffer.data(), corners.size()};
-  star.edge_buffer.clear();
+  make_room(star, corners.size());
+  Index edges = 0;
   for (Index i = 0; i < corners.size(); ++i) {
-    Spoke& spoke = star.spokes[i];
+    Spoke& spoke = star.spoke_buffer[i];
     spoke.corner = corners[i];
     spoke.next = corner_vertex[next(corners[i])];
     spoke.previous = corner_vertex[previous(corners[i])];
@@ -106,8 +105,8 @@ void Complex::gather(Index vertex, Star& star) {
       const Index other = side == 0 ? spoke.next : spoke.previous;
       if (marks[other] != epoch) {
         marks[other] = epoch;
-        slot_[other] = static_cast<Index>(star.edge_buffer.size());
-        star.edge_buffer.push_back({.vertex = other, .triangles = 0, .outgoing = 0});
+        slot_[other] = edges;
+        star.edge_buffer[edges++] = {.vertex = other, .triangles = 0, .outgoing = 0};
       }
       StarEdge& edge = star.edge_buffer[slot_[other]];
       ++edge.triangles;
@@ -116,19 +115,16 @@ void Complex::gather(Index vertex, Star& star) {
       edge.first = 2 * i + side;
     }
   }
-  star.edges = star.edge_buffer;
+  place(star, static_cast<Index>(corners.size()), edges);
   star.open_edges = static_cast<Index>(
       std::ranges::count_if(star.edges, [](const StarEdge& edge) { return edge.triangles != 2; }));
-  place_edges(star);
-  place_spokes(star);
 }
 
 void Complex::gather_regular(Index vertex, Star& star) {
   VertexRecord& record = vertices[vertex];
   star.vertex = vertex;
   star.open_edges = 0;
-  if (star.spoke_buffer.size() < record.ring_size) star.spoke_buffer.resize(record.ring_size);
-  if (star.edge_buffer.size() < record.ring_size) star.edge_buffer.resize(record.ring_size);
+  make_room(star, record.ring_size);
   Index live = 0;
   Index* const first = pool_.data() + record.ring;
   for (Index i = 0; i < record.ring_size; ++i) {
@@ -146,54 +142,73 @@ void Complex::gather_regular(Index vertex, Star& star) {
     ++live;
   }
   record.ring_size = live;
-  star.spokes = {star.spoke_buffer.data(), live};
-  star.edges = {star.edge_buffer.data(), live};
-  place_edges(star);
-  place_spokes(star);
+  place(star, live, live);
 }
 
-// Where there is no edge, the star's vertex takes its place.
-void Complex::place_edges(Star& star) const {
-  const std::size_t n = star.edges.size(), groups = (n + 3) / 4;
-  if (star.edge_group_buffer.size() < groups) star.edge_group_buffer.resize(groups);
-  star.edge_groups = {star.edge_group_buffer.data(), groups};
-  const VertexPoint own = points[star.vertex];
-  for (std::size_t g = 0; g < groups; ++g) {
-    EdgeGroup& group = star.edge_groups[g];
-    const auto end = [&](std::size_t i) {
-      return 4 * g + i < n ? star.edges[4 * g + i].vertex : kNone;
-    };
-    const Index v[4] = {end(0), end(1), end(2), end(3)};
-    std::memcpy(&group.vertex, v, sizeof v);
-    const auto point = [&](Index i) { return load4(i == kNone ? &own : &points[i]); };
-    Vec3x4 p = {point(v[0]), point(v[1]), point(v[2])};
-    group.error = point(v[3]);
-    transpose4(p.x, p.y, p.z, group.error);
-    group.offset = p - own.position;
-  }
+void Complex::make_room(Star& star, std::size_t spokes) {
+  const std::size_t edges = 2 * spokes;
+  if (star.edge_buffer.size() >= edges + 3) return;
+  star.spoke_buffer.resize(spokes + 3);
+  star.edge_buffer.resize(edges + 3);
+  star.spoke_group_buffer.resize(spokes / 4 + 1);
+  star.edge_group_buffer.resize(edges / 4 + 1);
 }
 
-// A triangle with a locked vertex gets no area.
-void Complex::place_spokes(Star& star) const {
-  const std::size_t n = star.spokes.size(), groups = (n + 3) / 4;
-  if (star.spoke_group_buffer.size() < groups) star.spoke_group_buffer.resize(groups);
-  star.spoke_groups = {star.spoke_group_buffer.data(), groups};
-  const VertexPoint own = points[star.vertex];
-  const auto offsets = [&](std::size_t first, Index Spoke::*end) {
-    const auto point = [&](std::size_t i) {
-      return load4(first + i < n ? &points[star.spokes[first + i].*end] : &own);
-    };
-    Vec3x4 p = {point(0), point(1), point(2)};
-    Float4 error = point(3);
+// Where there is no edge or spoke any more, the star's vertex takes its place. A triangle with a
+// locked vertex gets no area.
+void Complex::place(Star& star, Index spokes, Index edges) const {
+  star.spokes = {star.spoke_buffer.data(), spokes};
+  star.edges = {star.edge_buffer.data(), edges};
+  star.spoke_groups = {star.spoke_group_buffer.data(), (spokes + 3) / 4};
+  star.edge_groups = {star.edge_group_buffer.data(), (edges + 3) / 4};
+  for (Index i = spokes; i % 4 != 0; ++i)
+    star.spoke_buffer[i].next = star.spoke_buffer[i].previous = star.vertex;
+  for (Index i = edges; i % 4 != 0; ++i) star.edge_buffer[i].vertex = star.vertex;
+
+  const Vec3f own = points[star.vertex].position;
+  const auto offsets = [&](Index a, Index b, Index c, Index d, Float4& error) {
+    Vec3x4 p = {load4(&points[a]), load4(&points[b]), load4(&points[c])};
+    error = load4(&points[d]);
     transpose4(p.x, p.y, p.z, error);
-    p = p - own.position;
-    const Int4 known = error < std::numeric_limits<float>::infinity();
-    return Vec3x4{known ? p.x : Float4{}, known ? p.y : Float4{}, known ? p.z : Float4{}};
+    return p - own;
   };
-  for (std::size_t g = 0; g < groups; ++g) {
-    star.spoke_groups[g].next = offsets(4 * g, &Spoke::next);
-    star.spoke_groups[g].previous = offsets(4 * g, &Spoke::previous);
+  const StarEdge* e = star.edge_buffer.data();
+  for (EdgeGroup& group : star.edge_groups) {
+    group.vertex =
+        Int4{static_cast<std::int32_t>(e[0].vertex), static_cast<std::int32_t>(e[1].vertex),
+             static_cast<std::int32_t>(e[2].vertex), static_cast<std::int32_t>(e[3].vertex)};
+    group.offset = offsets(e[0].vertex, e[1].vertex, e[2].vertex, e[3].vertex, group.error);
+    e += 4;
   }
+  const Spoke* s = star.spoke_buffer.data();
+  for (SpokeGroup& group : star.spoke_groups) {
+    Float4 next_error, previous_error;
+    group.next = offsets(s[0].next, s[1].next, s[2].next, s[3].next, next_error);
+    group.previous =
+        offsets(s[0].previous, s[1].previous, s[2].previous, s[3].previous, previous_error);
+    const Int4 known = max4(next_error, previous_error) < std::numeric_limits<float>::infinity();
+    group.next = {known ? group.next.x : Float4{}, known ? group.next.y : Float4{},
+                  known ? group.next.z : Float4{}};
+    s += 4;
+  }
+}
+
+// Each spoke's previous vertex is the next of one spoke, and no two have the same.
+bool Star::is_regular() const {
+  if (spokes.size() > kMostForPairs) return false;
+  Int4 hits_of_lane[kMostForPairs / 4] = {};
+  for (const Spoke& spoke : spokes) {
+    Int4 hits = {};
+    for (std::size_t g = 0; g < edge_groups.size(); ++g) {
+      const Int4 hit = edge_groups[g].vertex == static_cast<std::int32_t>(spoke.previous);
+      hits += hit;
+      hits_of_lane[g] += hit;
+    }
+    if (hits[0] + hits[1] + hits[2] + hits[3] != -1) return false;
+  }
+  for (std::size_t i = 0; i < spokes.size(); ++i)
+    if (hits_of_lane[i / 4][i % 4] != -1) return false;
+  return true;
 }
 
 Quadric Star::measure() {

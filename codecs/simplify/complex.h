@@ -43,7 +43,7 @@ struct StarEdge {
 
 /// Where four edges of a star lead.
 struct EdgeGroup {
-  Int4 vertex;    ///< the other ends; -1 where there is none, with no offset
+  Int4 vertex;    ///< the other ends; where there is none, the star's own vertex
   Vec3x4 offset;  ///< from the star's vertex
   Float4 error;   ///< VertexPoint::error of the other ends
 };
@@ -53,6 +53,9 @@ struct SpokeGroup {
   Vec3x4 normal;          ///< once measured: unit, or zero
   Float4 area;            ///< once measured
 };
+
+/// Rings up to this size are compared pair by pair.
+constexpr Index kMostForPairs = 16;
 
 /// The live triangles and edges around one vertex; scratch memory.
 struct Star {
@@ -67,6 +70,9 @@ struct Star {
   std::vector<EdgeGroup> edge_group_buffer;
   std::vector<SpokeGroup> spoke_group_buffer;
 
+  /// Whether the vertex is regular, after gather_regular(). Not told apart beyond kMostForPairs
+  /// spokes.
+  bool is_regular() const;
   /// Fills normals and areas; returns the quadric of the triangles. [Garland97 §3.4]
   Quadric measure();
   Vec3f normal(Index spoke) const { return spoke_groups[spoke / 4].normal.lane(spoke % 4); }
@@ -146,7 +152,8 @@ class Complex {
   }
   /// Fills spokes and edges; `edges` in order of appearance. Cost O(ring).
   void gather(Index vertex, Star& star);
-  /// The same for a regular vertex, faster: no lists of the spokes on an edge.
+  /// The same for a regular vertex, faster: no lists of the spokes on an edge. Several threads may
+  /// do so at once with different vertices.
   void gather_regular(Index vertex, Star& star);
   /// Adds corners to the ring of a vertex. Amortized O(corners).
   void append(Index vertex, std::span<const Index> corners);
@@ -158,8 +165,8 @@ class Complex {
   std::span<const Index> few_of_ring(Index v) const {
     return {pool_.data() + vertices[v].ring, std::min(vertices[v].ring_size, Index{8})};
   }
-  void place_spokes(Star& star) const;
-  void place_edges(Star& star) const;
+  static void make_room(Star& star, std::size_t spokes);
+  void place(Star& star, Index spokes, Index edges) const;
 
   std::vector<Index> pool_;
   std::vector<Index> slot_;  // by vertex: its edge while a star is gathered

@@ -38,6 +38,7 @@ inline Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 inline Float4 dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Float4 dot(const Vec3x4& a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

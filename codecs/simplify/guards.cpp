@@ -10,8 +10,6 @@ constexpr float kLeastCosine = 0.2f;
 // Height over longest side below which a face is a sliver. No more than what degenerates: the long
 // faces that developable parts of CAD models need are much thinner than one would like.
 constexpr float kSliver = 1e-4f;
-// Rings up to this size are compared pair by pair.
-constexpr Index kMostForPairs = 16;
 
 // A vertex on a border or non-manifold edge may only slide along it, and not where several meet.
 bool breaks_border(const Star& star, const StarEdge& edge) {
@@ -61,7 +59,9 @@ Guard Guards::check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f k
 bool Guards::breaks_regular_link(const Star& star, Index p) {
   Int4 shared = {};
   for (const Index corner : complex_.ring(p)) {
-    const auto x = static_cast<std::int32_t>(complex_.corner_vertex[Complex::next(corner)]);
+    const Index neighbour = complex_.corner_vertex[Complex::next(corner)];
+    if (neighbour == star.vertex) continue;
+    const auto x = static_cast<std::int32_t>(neighbour);
     for (const EdgeGroup& group : star.edge_groups) shared += group.vertex == x;
   }
   if (shared[0] + shared[1] + shared[2] + shared[3] != -2) return true;

@@ -16,6 +16,7 @@
 #include "codecs/simplify/initial_quadrics.h"
 #include "codecs/simplify/vertex_buckets.h"
 #include "codecs/simplify/wedges.h"
+#include "core/parallel.h"
 
 namespace pstrip {
 namespace {
@@ -49,14 +50,23 @@ class HalfEdgeSimplifier {
   CollapseSequence run(const Progress& progress);
 
  private:
+  // A vertex and what its collapses cost.
+  struct Candidate {
+    Star star;
+    Quadric quadric;     // what counts for the vertex now
+    float constant = 0;  // and its constant term
+  };
+
   void fill_queue();
-  bool has_lines() const;
-  void gather(Index q);
-  void evaluate();
-  float least_cost() const;
-  void price(std::size_t first, const EdgeGroup& group);
-  void price_wedges();
-  void apply_limit();
+  bool start_plain(Index v, Candidate& at);
+  void start(Index v, Candidate& at);
+  bool is_one_group(const Star& star) const;
+  void gather(Index q, Candidate& at);
+  void weigh(Candidate& at, bool is_plain) const;
+  void evaluate(Candidate& at);
+  void price(Candidate& at) const;
+  void price_wedges(Candidate& at);
+  void apply_limit(Candidate& at) const;
   const StarEdge* choose(float limit);
   Guard check(const StarEdge& edge);
   void collapse(const StarEdge& edge);
@@ -72,9 +82,7 @@ class HalfEdgeSimplifier {
   std::optional<VertexBuckets> queue_;
   float most_error_ = kInfinity;  // squared, in the complex's units
 
-  Star star_;
-  Quadric quadric_;           // what counts for the star's vertex now
-  float constant_ = 0;        // and its constant term
+  Candidate now_;
   std::vector<Index> moved_;  // corners
   float last_error_ = 0;
   CollapseSequence out_;
@@ -84,8 +92,8 @@ CollapseSequence HalfEdgeSimplifier::run(const Progress& progress) {
   if (out_.triangles_left <= options_.target_triangles) return std::move(out_);
   fill_queue();
   const auto try_collapse = [&](Index q) {
-    gather(q);
-    evaluate();
+    gather(q, now_);
+    evaluate(now_);
     const StarEdge* const edge = choose(queue_->limit());
     if (edge) collapse(*edge);
     return edge != nullptr;
@@ -95,101 +103,135 @@ CollapseSequence HalfEdgeSimplifier::run(const Progress& progress) {
   return std::move(out_);
 }
 
+// Vertices without anything special are many, and do not need one another's scratch memory.
 void HalfEdgeSimplifier::fill_queue() {
+  constexpr std::size_t kGrain = 4096;
   if (wedges_) builder_.add_attributes();
   std::vector<float> keys(complex_.vertex_count(), kInfinity);
-  for (Index v = 0; v < keys.size(); ++v) {
-    if (complex_.is_locked(v)) continue;
-    VertexRecord& record = complex_.vertices[v];
-    complex_.gather(v, star_);
-    record.regular = !has_lines();
-    const Quadric faces = star_.measure();
-    if (memoryless_) {
-      record.quadric.weight += faces.weight;
-    } else {
-      record.quadric.add_matrix(faces);
-      builder_.add_edges(star_, record.quadric);
+  const auto least_cost = [](const Star& star) {
+    float least = kInfinity;
+    for (const StarEdge& edge : star.edges) least = std::min(least, edge.cost);
+    return least;
+  };
+  constexpr float kNotYet = -1;
+  parallel_for(options_.threads, keys.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Candidate at;
+    for (Index v = static_cast<Index>(begin); v < end; ++v)
+      if (!complex_.is_locked(v)) keys[v] = start_plain(v, at) ? least_cost(at.star) : kNotYet;
+  });
+  for (Index v = 0; v < keys.size(); ++v)
+    if (keys[v] == kNotYet) {
+      start(v, now_);
+      keys[v] = least_cost(now_.star);
     }
-    gather(v);
-    // No vertex has an error yet, so the other ends need not be complete.
-    evaluate();
-    keys[v] = least_cost();
-  }
   queue_.emplace(keys);
 }
 
-// Whether edges of the star count besides its faces.
-bool HalfEdgeSimplifier::has_lines() const {
-  const auto group = [&](const Spoke& s) { return input_.group[s.corner / 4]; };
-  if (star_.open_edges > 0 ||
-      std::ranges::any_of(star_.edges, [](const StarEdge& e) { return e.outgoing != 1; }))
-    return true;
-  return memoryless_ && !input_.group.empty() &&
-         std::ranges::any_of(star_.spokes,
-                             [&](const Spoke& s) { return group(s) != group(star_.spokes[0]); });
+// Prepares a vertex whose faces alone count. False if it is not one.
+bool HalfEdgeSimplifier::start_plain(Index v, Candidate& at) {
+  if (wedges_) return false;
+  complex_.gather_regular(v, at.star);
+  if (!at.star.is_regular() || !is_one_group(at.star)) return false;
+  at.quadric = at.star.measure();
+  VertexRecord& record = complex_.vertices[v];
+  if (memoryless_) {
+    record.quadric.weight = at.quadric.weight;
+  } else {
+    if (QuadricBuilder::may_fold(at.star)) return false;
+    record.quadric = at.quadric;
+  }
+  record.regular = true;
+  evaluate(at);
+  return true;
 }
 
-// The star of q and its quadric: of the faces that there are and what attributes demand, or of all
-// that it stands for.
-void HalfEdgeSimplifier::gather(Index q) {
-  const VertexRecord& record = complex_.vertices[q];
-  const bool is_plain = record.regular && !wedges_;
+// The same for any vertex. None has an error yet, so the other ends need not be complete.
+void HalfEdgeSimplifier::start(Index v, Candidate& at) {
+  VertexRecord& record = complex_.vertices[v];
+  complex_.gather(v, at.star);
+  record.regular =
+      at.star.open_edges == 0 && (!memoryless_ || is_one_group(at.star)) &&
+      std::ranges::all_of(at.star.edges, [](const StarEdge& e) { return e.outgoing == 1; });
+  const Quadric faces = at.star.measure();
+  if (memoryless_) {
+    record.quadric.weight += faces.weight;
+  } else {
+    record.quadric.add_matrix(faces);
+    builder_.add_edges(at.star, record.quadric);
+  }
+  weigh(at, record.regular && !wedges_);
+  evaluate(at);
+}
+
+bool HalfEdgeSimplifier::is_one_group(const Star& star) const {
+  const auto group = [&](const Spoke& s) { return input_.group[s.corner / 4]; };
+  return input_.group.empty() || std::ranges::all_of(star.spokes, [&](const Spoke& s) {
+           return group(s) == group(star.spokes[0]);
+         });
+}
+
+void HalfEdgeSimplifier::gather(Index q, Candidate& at) {
+  const bool is_plain = complex_.vertices[q].regular && !wedges_;
   if (is_plain)
-    complex_.gather_regular(q, star_);
+    complex_.gather_regular(q, at.star);
   else
-    complex_.gather(q, star_);
-  quadric_ = star_.measure();
+    complex_.gather(q, at.star);
+  weigh(at, is_plain);
+}
+
+// What counts: the faces that there are and what attributes demand, or all that the vertex stands
+// for.
+void HalfEdgeSimplifier::weigh(Candidate& at, bool is_plain) const {
+  const VertexRecord& record = complex_.vertices[at.star.vertex];
+  at.quadric = at.star.measure();
   if (!memoryless_) {
-    quadric_ = record.quadric;
-    constant_ = complex_.points[q].error;
+    at.quadric = record.quadric;
+    at.constant = complex_.points[at.star.vertex].error;
     return;
   }
-  if (!is_plain) builder_.add_edges(star_, quadric_);
-  constant_ = record.attribute_error;
+  if (!is_plain) builder_.add_edges(at.star, at.quadric);
+  at.constant = record.attribute_error;
   if (input_.attribute_count == 0) return;
-  const float weight = quadric_.weight;
-  quadric_.add(record.quadric, {});
-  quadric_.weight = weight;
+  const float weight = at.quadric.weight;
+  at.quadric.add(record.quadric, {});
+  at.quadric.weight = weight;
 }
 
 // Fills the costs of the star's edges, guards aside.
-void HalfEdgeSimplifier::evaluate() {
-  for (std::size_t g = 0; g < star_.edge_groups.size(); ++g) price(4 * g, star_.edge_groups[g]);
-  if (wedges_) price_wedges();
-  if (most_error_ < kInfinity) apply_limit();
-}
-
-float HalfEdgeSimplifier::least_cost() const {
-  float least = kInfinity;
-  for (const StarEdge& edge : star_.edges) least = std::min(least, edge.cost);
-  return least;
+void HalfEdgeSimplifier::evaluate(Candidate& at) {
+  price(at);
+  if (wedges_) price_wedges(at);
+  if (most_error_ < kInfinity) apply_limit(at);
 }
 
 // Wedges and the limit aside.
-inline void HalfEdgeSimplifier::price(std::size_t first, const EdgeGroup& group) {
-  const Quadric& a = quadric_;
-  const Vec3x4& d = group.offset;
-  const Float4 x = a.xx * d.x + a.xy * d.y + a.xz * d.z + 2 * a.b.x;
-  const Float4 y = a.xy * d.x + a.yy * d.y + a.yz * d.z + 2 * a.b.y;
-  const Float4 z = a.xz * d.x + a.yz * d.y + a.zz * d.z + 2 * a.b.z;
-  const Float4 error = max4(constant_ + (d.x * x + d.y * y + d.z * z), Float4{});
-  // With the error that the other end has, the classic sum of quadrics. Without it a locked end
-  // must still cost more than any number.
-  const Float4 other = memoryless_ ? group.error - group.error : group.error;
-  const Float4 cost = error + kLengthShare * a.weight * dot(d, d) + other;
-  const std::size_t n = std::min<std::size_t>(4, star_.edges.size() - first);
-  for (std::size_t i = 0; i < n; ++i) {
-    StarEdge& edge = star_.edges[first + i];
-    edge.error = error[i];
-    edge.cost = cost[i] < kInfinity ? cost[i] : kInfinity;
+void HalfEdgeSimplifier::price(Candidate& at) const {
+  const Quadric& a = at.quadric;
+  const float length_share = kLengthShare * a.weight;
+  StarEdge* edge = at.star.edge_buffer.data();  // has room for whole groups
+  for (const EdgeGroup& group : at.star.edge_groups) {
+    const Vec3x4& d = group.offset;
+    const Float4 x = a.xx * d.x + a.xy * d.y + a.xz * d.z + 2 * a.b.x;
+    const Float4 y = a.xy * d.x + a.yy * d.y + a.yz * d.z + 2 * a.b.y;
+    const Float4 z = a.xz * d.x + a.yz * d.y + a.zz * d.z + 2 * a.b.z;
+    const Float4 error = max4(at.constant + (d.x * x + d.y * y + d.z * z), Float4{});
+    // With the error that the other end has, the classic sum of quadrics. Without it a locked end
+    // must still cost more than any number.
+    const Float4 other = memoryless_ ? group.error - group.error : group.error;
+    Float4 cost = error + length_share * dot(d, d) + other;
+    cost = cost < kInfinity ? cost : all4(kInfinity);
+    for (std::size_t i = 0; i < 4; ++i, ++edge) {
+      edge->error = error[i];
+      edge->cost = cost[i];
+    }
   }
 }
 
-void HalfEdgeSimplifier::price_wedges() {
-  const float live_weight = wedges_->live_weight(star_);
-  for (StarEdge& edge : star_.edges) {
-    const Vec3f offset = complex_.offset(star_.vertex, edge.vertex);
-    const WedgeTable::Cost cost = wedges_->cost(star_, edge);
+void HalfEdgeSimplifier::price_wedges(Candidate& at) {
+  const float live_weight = wedges_->live_weight(at.star);
+  for (StarEdge& edge : at.star.edges) {
+    const Vec3f offset = complex_.offset(at.star.vertex, edge.vertex);
+    const WedgeTable::Cost cost = wedges_->cost(at.star, edge);
     // The other part is in the quadric: the sum is positive but for rounding.
     const float error = std::max(cost.at(offset), -edge.error);
     edge.error += error;
@@ -199,10 +241,11 @@ void HalfEdgeSimplifier::price_wedges() {
   }
 }
 
-void HalfEdgeSimplifier::apply_limit() {
-  const float weight = complex_.vertices[star_.vertex].quadric.weight;
-  const float before = memoryless_ ? complex_.points[star_.vertex].error - constant_ : 0;
-  for (StarEdge& edge : star_.edges) {
+void HalfEdgeSimplifier::apply_limit(Candidate& at) const {
+  const Index q = at.star.vertex;
+  const float weight = complex_.vertices[q].quadric.weight;
+  const float before = memoryless_ ? complex_.points[q].error - at.constant : 0;
+  for (StarEdge& edge : at.star.edges) {
     const float after = before + edge.error + complex_.points[edge.vertex].error;
     if (after > most_error_ * (weight + complex_.vertices[edge.vertex].quadric.weight))
       edge.cost = kInfinity;
@@ -212,11 +255,11 @@ void HalfEdgeSimplifier::apply_limit() {
 // The edge to collapse now, all others costing at least about `limit`: refused edges are made
 // dearer and compared again. Null after the vertex was put back or has no edge left.
 const StarEdge* HalfEdgeSimplifier::choose(float limit) {
-  const Index q = star_.vertex;
-  const bool large = star_.spokes.size() > kLargeRing;
+  const Index q = now_.star.vertex;
+  const bool large = now_.star.spokes.size() > kLargeRing;
   for (int checks = 0;; ++checks) {
     StarEdge* best = nullptr;
-    for (StarEdge& edge : star_.edges)
+    for (StarEdge& edge : now_.star.edges)
       if (!best || edge.cost < best->cost ||
           (edge.cost == best->cost && edge.vertex < best->vertex))
         best = &edge;
@@ -228,31 +271,32 @@ const StarEdge* HalfEdgeSimplifier::choose(float limit) {
     }
     if (best->refused != Guard::none) return best;
     const bool give_up = large && checks == kMostGuardChecks;
-    for (StarEdge& edge : star_.edges) {
+    for (StarEdge& edge : now_.star.edges) {
       if (give_up ? edge.refused != Guard::none : &edge != best) continue;
       edge.refused = give_up ? Guard::flip : check(edge);
       if (edge.refused == Guard::none) return best;
       count(out_.refused, edge.refused);
       const Vec3f offset = complex_.offset(q, edge.vertex);
-      edge.cost += kForcedShare * quadric_.weight * dot(offset, offset);
+      edge.cost += kForcedShare * now_.quadric.weight * dot(offset, offset);
     }
   }
 }
 
 Guard HalfEdgeSimplifier::check(const StarEdge& edge) {
-  const Guard guard = guards_.check(star_, edge);
-  return guard == Guard::none && wedges_ && wedges_->breaks_texture(star_, edge) ? Guard::texture
-                                                                                 : guard;
+  const Guard guard = guards_.check(now_.star, edge);
+  return guard == Guard::none && wedges_ && wedges_->breaks_texture(now_.star, edge)
+             ? Guard::texture
+             : guard;
 }
 
 // What the vertices around cost now is found when they come up: errors rarely fall.
 void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
-  const Index q = star_.vertex, p = edge.vertex;
+  const Index q = now_.star.vertex, p = edge.vertex;
   const Vec3f offset = complex_.offset(q, p);
   const std::size_t first_move = out_.moves.size();
 
   moved_.clear();
-  for (const Spoke& spoke : star_.spokes) {
+  for (const Spoke& spoke : now_.star.spokes) {
     if (spoke.next == p || spoke.previous == p) {
       complex_.kill(spoke.corner);
       --out_.triangles_left;
@@ -264,9 +308,9 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
   VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[p];
   if (memoryless_ && input_.attribute_count > 0)
     to.attribute_error +=
-        from.attribute_error + from.quadric.at(offset) + wedges_->cost(star_, edge).at(offset);
+        from.attribute_error + from.quadric.at(offset) + wedges_->cost(now_.star, edge).at(offset);
   if (wedges_)
-    wedges_->collapse(complex_, star_, p, offset, from.quadric, out_.moves);
+    wedges_->collapse(complex_, now_.star, p, offset, from.quadric, out_.moves);
   else
     out_.moves.push_back({q, p});
   complex_.append(p, moved_);
@@ -274,10 +318,11 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
   to.quadric.add(from.quadric, offset * -1);
   // A history that is not in the quadric grows by each step's error.
   complex_.points[p].error +=
-      memoryless_ ? complex_.points[q].error + std::max(edge.error - constant_, 0.f) : edge.error;
+      memoryless_ ? complex_.points[q].error + std::max(edge.error - now_.constant, 0.f)
+                  : edge.error;
   count(out_.forced, edge.refused);
   if (edge.refused != Guard::none)
-    for (const StarEdge& other : star_.edges) complex_.vertices[other.vertex].regular = false;
+    for (const StarEdge& other : now_.star.edges) complex_.vertices[other.vertex].regular = false;
   to.regular &= from.regular;
   note_collapse(p, first_move);
 }
@@ -289,7 +334,7 @@ void HalfEdgeSimplifier::note_collapse(Index p, std::size_t first_move) {
   last_error_ = std::max(
       last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
   out_.collapses.push_back(
-      {star_.vertex, p, last_error_, static_cast<Index>(out_.moves.size() - first_move)});
+      {now_.star.vertex, p, last_error_, static_cast<Index>(out_.moves.size() - first_move)});
 }
 
 }  // namespace

@@ -52,6 +52,15 @@ void QuadricBuilder::add_attributes(Quadric* also) {
   }
 }
 
+// Two faces within 45° of a third lie within 90° of each other.
+bool QuadricBuilder::may_fold(const Star& star) {
+  const Vec3f n = star.normal(0);
+  Int4 far = {};
+  for (const SpokeGroup& group : star.spoke_groups)
+    far |= (group.area > 0) & (dot(group.normal, n) < 0.71f);
+  return any4(far);
+}
+
 void QuadricBuilder::add_edges(const Star& star, Quadric& quadric) const {
   if (complex_.is_locked(star.vertex)) return;
   for (const StarEdge& edge : star.edges)

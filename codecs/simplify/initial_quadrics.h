@@ -22,6 +22,9 @@ class QuadricBuilder {
   /// Adds what the edges of a star, which has been measured, bring to a quadric of its vertex.
   /// Cost O(star).
   void add_edges(const Star& star, Quadric& quadric) const;
+  /// Whether edges of a star bring anything although each has two faces of one group and wedge: not
+  /// where the faces of the star are nearly flat. Errs on the side of yes.
+  static bool may_fold(const Star& star);
 
  private:
   void add_edge(const Star& star, const StarEdge& edge, Quadric& quadric) const;

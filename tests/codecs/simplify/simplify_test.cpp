@@ -316,6 +316,26 @@ TEST(Simplify, GivesTheSameSequenceAgain) {
     }
 }
 
+TEST(Simplify, DoesNotDependOnTheNumberOfThreads) {
+  // Larger than what one thread takes at a time; with borders and folds, which are looked at apart.
+  Source source = source_of(test::grid(110));
+  for (std::size_t i = 2; i < source.positions.size(); i += 9) source.positions[i] += 40;
+  for (const Manner& manner : kManners) {
+    SCOPED_TRACE(manner.name);
+    SimplifyOptions options = manner.to(1000);
+    options.threads = 1;
+    const CollapseSequence one = run(source, options);
+    for (const unsigned threads : {2u, 5u}) {
+      options.threads = threads;
+      const CollapseSequence several = run(source, options);
+      EXPECT_EQ(one.collapses, several.collapses);
+      EXPECT_EQ(one.moves, several.moves);
+      EXPECT_EQ(one.placements, several.placements);
+      EXPECT_EQ(one.refused, several.refused);
+    }
+  }
+}
+
 TEST(Simplify, OfATargetIsAPrefixOfTheWhole) {
   const Source source = source_of(test::torus(24, 12));
   for (const Manner& manner : kManners) {
