@@ -5,6 +5,9 @@
 #include <cassert>
 #include <numeric>
 
+#include "codecs/vsplit/in_order.h"
+#include "codecs/vsplit/level.h"
+
 namespace pstrip {
 namespace {
 
@@ -68,19 +71,17 @@ std::vector<Index> inverse(std::span<const Index> permutation) {
 }  // namespace
 
 FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, const StripMap& strips,
-                        const Recording& recording) {
-  FaceRecord out;
-  out.order.vertex = recording.vertex_from;
-  if (!recording.mesh.single_wedges) out.order.wedge = recording.wedge_from;
-  const std::vector<Index> wedge_to = inverse(recording.wedge_from);
-
+                        const Recording& recording, bool with_order) {
   // A face is plain when the strips hold it as it is: a triangle with three different vertices.
   const Index faces = source.face_count();
+  const bool all_plain = source.face_first.empty() && triangles.face.size() == faces;
+  if (all_plain && source.face_attributes.empty() && !with_order) return {};
   std::vector<Index> pieces(faces, 0);
   for (const Index f : triangles.face) ++pieces[f];
   const auto is_plain = [&](Index f) { return pieces[f] == 1 && source.face(f).size() == 3; };
 
   // The strips' triangles in map order.
+  FaceRecord out;
   TriangleFinder finder(source, triangles);
   std::vector<Index> map_triangle(
       triangles.face.size());  // of each source triangle, its place in the map
@@ -105,6 +106,7 @@ FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, cons
   }
 
   // Everything else, in source order.
+  const std::vector<Index> wedge_to = inverse(recording.wedge_from);
   FaceTable& table = out.faces;
   Index piece = 0;
   for (Index f = 0; f < faces; ++f) {
@@ -125,16 +127,35 @@ FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, cons
     table.replaced_first.push_back(static_cast<Index>(table.replaced.size()));
   }
 
-  for (const Attribute& a : source.face_attributes) {
-    Attribute sorted{a.semantic, a.type, a.count, a.normalized, {}};
-    sorted.data.reserve(a.data.size());
-    for (const Index f : out.order.face) {
-      const ByteView element = a.element(f);
-      sorted.data.insert(sorted.data.end(), element.begin(), element.end());
-    }
-    table.attributes.push_back(std::move(sorted));
+  for (const Attribute& a : source.face_attributes)
+    table.attributes.push_back(in_order(a, out.order.face));
+  if (!with_order) {
+    out.order = {};
+    return out;
   }
+  out.order.vertex = recording.vertex_from;
+  if (!recording.mesh.single_wedges) out.order.wedge = recording.wedge_from;
   return out;
+}
+
+Mesh mesh_to_decode(const Mesh& source, const StripMap& strips, const Recording& recording) {
+  const ProgressiveMesh& mesh = recording.mesh;
+  const std::vector<Index> wedge_to = inverse(recording.wedge_from);
+  std::vector<Index> map;
+  map.reserve(strips.entries.size());
+  for (const Index w : strips.entries) map.push_back(w == kRestart ? kRestart : wedge_to[w]);
+  std::vector<Index> wedge_vertex;
+  if (!mesh.single_wedges) {
+    const std::vector<Index> vertex_to = inverse(recording.vertex_from);
+    wedge_vertex.reserve(mesh.wedges);
+    for (const Index w : recording.wedge_from)
+      wedge_vertex.push_back(vertex_to[source.vertex_of(w)]);
+  }
+  Bytes positions;
+  if (mesh.placement == Placement::free)
+    positions = in_order(source.position, recording.vertex_from).data;
+  return mesh_of(Level::full(mesh, std::move(map), std::move(wedge_vertex), std::move(positions)))
+      .value();
 }
 
 }  // namespace pstrip

@@ -15,8 +15,17 @@ struct FaceRecord {
 /// that is not one plain triangle, and finds where each vertex, wedge and face came from.
 ///
 /// Preconditions: `strips` holds each triangle of `triangles` once, in its group; `recording` was
-/// made from both. Cost O(map + faces).
+/// made from both. Cost O(map + faces); without the order next to nothing for plain triangles
+/// without attributes.
+///
+/// with_order  else `order` stays empty
 FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, const StripMap& strips,
-                        const Recording& recording);
+                        const Recording& recording, bool with_order = true);
+
+/// The mesh that decoders end with, put together from the source and not from the records: its
+/// digest tells whether a decoder and the records have done what they should.
+///
+/// Precondition: `recording.mesh.faces` is what record_faces() found.
+Mesh mesh_to_decode(const Mesh& source, const StripMap& strips, const Recording& recording);
 
 }  // namespace pstrip

@@ -84,6 +84,23 @@ Level::Level(const ProgressiveMesh& mesh)
             static_cast<std::ptrdiff_t>(mesh.position.element_bytes() * mesh.base_vertices));
 }
 
+Level Level::full(const ProgressiveMesh& mesh, std::vector<Index> resolved,
+                  std::vector<Index> wedge_vertex, Bytes positions) {
+  assert(wedge_vertex.empty() == mesh.single_wedges || mesh.wedges == 0);
+  assert(resolved.size() == mesh.base_map.size());
+  Level out;
+  out.mesh_ = &mesh;
+  out.next_ = static_cast<Index>(mesh.vsplits.size());
+  out.wedge_count_ = mesh.wedges;
+  out.new_wedge_ = mesh.wedge_places.size();
+  out.place_ = mesh.places.size();
+  out.carried_ = mesh.carried.size();
+  out.resolved_ = std::move(resolved);
+  out.wedge_vertex_ = std::move(wedge_vertex);
+  out.moved_positions_ = std::move(positions);
+  return out;
+}
+
 void Level::refine(Index vsplits) {
   const ProgressiveMesh& mesh = *mesh_;
   const Index available = static_cast<Index>(mesh.vsplits.size()) - next_;

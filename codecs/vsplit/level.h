@@ -19,6 +19,14 @@ class Level {
   /// The base. Cost O(base and map size).
   explicit Level(const ProgressiveMesh& mesh);
 
+  /// The last level of a complete mesh, whose parts are known otherwise: no record is looked at.
+  ///
+  /// resolved      the whole map
+  /// wedge_vertex  of all wedges; empty with single wedges
+  /// positions     with free placement, of all vertices; else empty
+  static Level full(const ProgressiveMesh& mesh, std::vector<Index> resolved,
+                    std::vector<Index> wedge_vertex, Bytes positions);
+
   /// Applies the next `vsplits` records, those the mesh has not got left out.
   ///
   /// cost  O(what they rewrite): the places and the entries whose chains end there. Hostile records
@@ -56,11 +64,12 @@ class Level {
   }
 
  private:
+  Level() = default;
   void write(Index offset, Index wedge);
   bool follows_chains() const;
   void follow_chains(Index offset, Index wedge);
 
-  const ProgressiveMesh* mesh_;
+  const ProgressiveMesh* mesh_ = nullptr;
   Index next_ = 0;  // first record not yet applied
   Index wedge_count_ = 0;
   std::size_t new_wedge_ = 0, place_ = 0, carried_ = 0;  // next element of the mesh's lists

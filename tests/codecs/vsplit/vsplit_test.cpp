@@ -165,11 +165,17 @@ void expect_exact(const Scenario& s, MapEncoding encoding) {
   ASSERT_EQ(level.wedge_count(), s.mesh.wedge_count());
 
   FaceRecord faces = record_faces(s.mesh, s.triangles, s.strips, recording);
-  ProgressiveMesh whole = recording.mesh;
-  whole.faces = faces.faces;
-  Level full(whole);
+  Recording whole = recording;
+  whole.mesh.faces = faces.faces;
+  Level full(whole.mesh);
   full.refine_fully();
-  ASSERT_EQ(restore_order(mesh_of(full).value(), faces.order), s.mesh);
+  const Mesh decoded = mesh_of(full).value();
+  ASSERT_EQ(decoded, mesh_to_decode(s.mesh, s.strips, whole));
+  ASSERT_EQ(restore_order(decoded, faces.order), s.mesh);
+
+  const FaceRecord unordered = record_faces(s.mesh, s.triangles, s.strips, recording, false);
+  ASSERT_EQ(unordered.faces, faces.faces);
+  ASSERT_EQ(unordered.order, OriginalOrder{});
 }
 
 RC_GTEST_PROP(Vsplit, RandomCollapsesOfRandomSoupAreUndoneExactly, ()) {
