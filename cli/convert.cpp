@@ -82,6 +82,7 @@ ExitCode run(const Options& options, const Streams& io) {
   auto encode_options = options.encode.get();
   if (!encode_options) return complain(io, encode_options.error());
   encode_options->memory_bytes = options.limits.limits.memory_bytes;
+  encode_options->threads = options.limits.limits.threads;
   // A mesh made from a text record has the record's own order.
   if (!is_progressive(*target)) encode_options->keep_order = true;
   ProgressBar bar(io);
@@ -114,7 +115,9 @@ ExitCode run(const Options& options, const Streams& io) {
       saved = save(*strips, options.output, *target);
     } else {
       saved = save(model, options.output, *target,
-                   {.ascii = options.ascii, .strips = options.gltf_strips});
+                   {.ascii = options.ascii,
+                    .strips = options.gltf_strips,
+                    .threads = options.limits.limits.threads});
     }
   }
   if (!saved) return complain(io, saved.error(), options.output);

@@ -42,6 +42,9 @@ void LimitOptions::add_to(CLI::App& app) {
   app.add_option("--max-depth", limits.xml_depth, "Refuse deeper nesting in XML and JSON")
       ->capture_default_str()
       ->group("Limits");
+  app.add_option("--threads", limits.threads,
+                 "Threads to work with; 0 is one a core. The output does not depend on it")
+      ->capture_default_str();
 }
 
 void LevelOptions::add_to(CLI::App& app) {
@@ -57,12 +60,12 @@ void LevelOptions::add_to(CLI::App& app) {
   for (auto* option : {packets, triangles, error}) option->group("Level of a progressive file");
 }
 
-std::function<bool()> stop_after(double seconds, std::shared_ptr<bool> was_cut) {
+std::function<bool()> stop_after(double seconds, std::shared_ptr<std::atomic<bool>> was_cut) {
   if (seconds <= 0) return {};
   return [=, start = std::chrono::steady_clock::now()]() {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    *was_cut = *was_cut || passed.count() > seconds;
-    return *was_cut;
+    if (passed.count() > seconds) *was_cut = true;
+    return was_cut->load();
   };
 }
 

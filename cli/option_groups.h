@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,7 +33,7 @@ struct FormatOption {
 };
 
 /// --max-vertices, --max-wedges, --max-corners, --max-meshes, --max-string, --max-memory,
-/// --max-depth
+/// --max-depth, and --threads
 struct LimitOptions {
   Limits limits;
   void add_to(CLI::App& app);
@@ -46,7 +47,7 @@ struct LevelOptions {
 };
 
 /// True from `seconds` after the call on, and then notes it in `*was_cut`; empty for 0 seconds.
-std::function<bool()> stop_after(double seconds, std::shared_ptr<bool> was_cut);
+std::function<bool()> stop_after(double seconds, std::shared_ptr<std::atomic<bool>> was_cut);
 
 /// --goal, --strip-effort, --strip-price, --strip-weight, --tunnel-length, --tunnel-effort,
 /// --time-limit: how hard the stripifier tries, and for what.
@@ -57,8 +58,9 @@ struct StripOptionsGroup {
   std::string weight = "topological";
   std::uint32_t tunnel_length = StripOptions{}.tunnel_length;
   std::uint32_t tunnel_effort = StripOptions{}.tunnel_effort;
-  double time_limit = 0;                                          ///< seconds; 0: none
-  std::shared_ptr<bool> was_cut = std::make_shared<bool>(false);  ///< by the time limit
+  double time_limit = 0;  ///< seconds; 0: none
+  /// By the time limit.
+  std::shared_ptr<std::atomic<bool>> was_cut = std::make_shared<std::atomic<bool>>(false);
   void add_to(CLI::App& app);
   /// The time limit runs from here on. errors  bad_argument
   Result<StripOptions> get() const;

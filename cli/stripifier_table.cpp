@@ -76,7 +76,7 @@ std::vector<Run> runs_of(const ComparisonOptions& options) {
 }
 
 StripFigures measure_once(Model& model, const Run& run, double time_limit) {
-  const auto was_cut = std::make_shared<bool>(false);
+  const auto was_cut = std::make_shared<std::atomic<bool>>(false);
   StripOptions options = run.options;
   options.stop = stop_after(time_limit, was_cut);
   StripFigures out = measure_strips(model, *run.algorithm, options, false);

@@ -3,18 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <numeric>
 #include <queue>
+#include <utility>
 
 #include "codecs/stripify/stripify.h"
 #include "codecs/triangulate/triangulate.h"
 #include "codecs/vsplit/faces.h"
-#include "codecs/vsplit/level.h"
 #include "codecs/vsplit/record.h"
 #include "converters/capacity.h"
 #include "converters/level_cost.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
+#include "core/parallel.h"
 #include "formats/pstrip/check.h"
 #include "formats/pstrip/digest.h"
 
@@ -99,6 +101,31 @@ struct Encoded {
   ProgressiveMesh mesh;
   Packet base;
   std::vector<Packet> packets;
+  std::optional<SimplifyReport> report;  // when the collapses were chosen
+};
+
+// Progress of meshes that are encoded side by side, told by one thread at a time.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, std::size_t meshes)
+      : progress_(progress), done_(meshes, 0) {}
+
+  /// False once the listener has said so to anybody.
+  bool go_on(std::string_view stage, Index mesh, double done) {
+    if (!progress_) return true;
+    const std::lock_guard lock(mutex_);
+    sum_ += done - std::exchange(done_[mesh], done);
+    const double share = std::clamp(sum_ / static_cast<double>(done_.size()), 0.0, 1.0);
+    stopped_ = stopped_ || !progress_(stage, share);  // nobody asks again
+    return !stopped_;
+  }
+
+ private:
+  const Progress& progress_;
+  std::mutex mutex_;
+  std::vector<double> done_;
+  double sum_ = 0;
+  bool stopped_ = false;
 };
 
 Packet packet_at(const Recording& recording, Index mesh, Index first, Index vsplits) {
@@ -130,7 +157,10 @@ class Encoder {
  public:
   Encoder(const Model& model, const EncodeOptions& options, const Progress& progress,
           std::vector<SimplifyReport>* reports = nullptr)
-      : model_(model), options_(options), progress_(progress), reports_(reports) {}
+      : model_(model),
+        options_(options),
+        progress_(progress, model.meshes.size()),
+        reports_(reports) {}
 
   Result<ProgressiveStrips> run(const std::vector<CollapseSequence>* given) {
     stripifier_ = find_stripifier(options_.stripifier);
@@ -140,16 +170,19 @@ class Encoder {
       const std::string wrong = find_inconsistency(model_.meshes[m]);
       if (!wrong.empty())
         return fail(ErrorCode::bad_argument, "mesh " + std::to_string(m) + ": " + wrong);
-      if (auto ok = check_capacity(work_size(model_.meshes[m]), options_.memory_bytes); !ok)
+      const WorkSize size = work_size(model_.meshes[m]);
+      if (auto ok = check_capacity(size, options_.memory_bytes); !ok)
         return fail(ErrorCode::over_limit, ok.error().message, kNoOffset,
                     "/meshes/" + std::to_string(m));
+      bytes_.push_back(encoding_bytes(size));
     }
     choose_share();
+    std::vector<Result<Encoded>> results = encode_meshes(given);
     std::vector<Encoded> encoded;
-    for (Index m = 0; m < model_.meshes.size(); ++m) {
-      auto mesh = encode_mesh(m, given ? &(*given)[m] : nullptr);
-      if (!mesh) return tl::unexpected(mesh.error());
-      encoded.push_back(std::move(mesh).value());
+    for (Result<Encoded>& result : results) {
+      if (!result) return tl::unexpected(result.error());
+      if (reports_ && result->report) reports_->push_back(*std::move(result->report));
+      encoded.push_back(std::move(result).value());
     }
     return join(std::move(encoded));
   }
@@ -164,16 +197,38 @@ class Encoder {
     share_ = all ? static_cast<double>(*options_.base_triangles) / static_cast<double>(all) : 0;
   }
 
-  bool go_on(std::string_view stage, Index mesh, double done) const {
-    return !progress_ ||
-           progress_(stage, (mesh + done) / static_cast<double>(model_.meshes.size()));
+  // Meshes that are large beside all of them, or beside the memory granted, are encoded one after
+  // the other with all threads inside, the rest side by side with one thread each: together these
+  // stay below what is granted.
+  std::vector<Result<Encoded>> encode_meshes(const std::vector<CollapseSequence>* given) {
+    const unsigned threads = thread_count(options_.threads);
+    const std::uint64_t all = std::accumulate(bytes_.begin(), bytes_.end(), std::uint64_t{0});
+    const std::uint64_t large = std::min(all, options_.memory_bytes) / threads;
+    std::vector<Result<Encoded>> out(bytes_.size());
+    const auto encode_one = [&](Index m, unsigned inside) {
+      out[m] = encode_mesh(m, given ? &(*given)[m] : nullptr, inside);
+    };
+    std::vector<Index> rest;
+    for (Index m = 0; m < bytes_.size(); ++m) {
+      if (bytes_[m] > large)
+        encode_one(m, threads);
+      else
+        rest.push_back(m);
+    }
+    parallel_for(threads, rest.size(), 1,
+                 [&](std::size_t begin, std::size_t) { encode_one(rest[begin], 1); });
+    return out;
   }
 
-  Result<Encoded> encode_mesh(Index m, const CollapseSequence* given) const {
+  Result<Encoded> encode_mesh(Index m, const CollapseSequence* given, unsigned threads) {
     const Mesh& mesh = model_.meshes[m];
+    const auto go_on = [&](std::string_view stage, double done) {
+      return progress_.go_on(stage, m, done);
+    };
     const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
     const Triangulation triangles = triangulate(mesh);
-    if (!go_on("simplify", m, 0)) return interrupted();
+    if (!go_on("simplify", 0)) return interrupted();
+    Encoded out;
     CollapseSequence chosen;
     if (!given) {
       const bool by_error = options_.base_error.has_value();
@@ -183,52 +238,44 @@ class Encoder {
           {.target_triangles = by_error ? 0 : static_cast<std::uint64_t>(target),
            .max_error = by_error ? *options_.base_error : -1,
            .placement = options_.placement,
-           .metric = options_.metric},
-          [&](std::string_view stage, double done) { return go_on(stage, m, 0.5 * done); });
+           .metric = options_.metric,
+           .threads = threads},
+          [&](std::string_view stage, double done) { return go_on(stage, 0.5 * done); });
       if (chosen.stop == SimplifyStop::interrupted) return interrupted();
       given = &chosen;
-      if (reports_)
-        reports_->push_back({.mesh = mesh.name,
-                             .triangles = triangles.face.size(),
-                             .base_triangles = chosen.triangles_left,
-                             .stop = chosen.stop,
-                             .refused = chosen.refused,
-                             .forced = chosen.forced});
+      out.report = {.mesh = mesh.name,
+                    .triangles = triangles.face.size(),
+                    .base_triangles = chosen.triangles_left,
+                    .stop = chosen.stop,
+                    .refused = chosen.refused,
+                    .forced = chosen.forced};
     }
-    if (!go_on("stripify", m, 0.5)) return interrupted();
+    if (!go_on("stripify", 0.5)) return interrupted();
     const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options,
-                                       step_cost_of(mesh, triangles, *given));
+                                       step_cost_of(mesh, triangles, *given, threads));
     if (strips.entries.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
-    if (!go_on("record", m, 0.75)) return interrupted();
+    if (!go_on("record", 0.75)) return interrupted();
     Recording recording = record(mesh, strips, *given, options_.encoding);
-    FaceRecord faces = record_faces(mesh, triangles, strips, recording);
-    Encoded out;
+    FaceRecord faces = record_faces(mesh, triangles, strips, recording, options_.keep_order);
+    recording.mesh.faces = std::move(faces.faces);
+    recording.mesh.order = std::move(faces.order);
+    const Digest sum = digest(mesh_to_decode(mesh, strips, recording));
+    recording.mesh.digest.assign(sum.begin(), sum.end());
     pack(recording, m, options_, out);
     out.mesh = std::move(recording.mesh);
-    out.mesh.faces = std::move(faces.faces);
-    add_digest(out.mesh);
-    if (options_.keep_order) out.mesh.order = std::move(faces.order);
     return out;
   }
 
   std::vector<std::uint8_t> step_cost_of(const Mesh& mesh, const Triangulation& triangles,
-                                         const CollapseSequence& sequence) const {
+                                         const CollapseSequence& sequence, unsigned threads) const {
     if (options_.level_cost == 0) return {};
     std::vector<Index> vertices;
     vertices.reserve(triangles.corners.size());
     for (const Index wedge : triangles.corners) vertices.push_back(mesh.vertex_of(wedge));
-    return level_step_cost(
-        vertices, mesh.vertex_count(), sequence.collapses,
-        static_cast<std::uint8_t>(std::min(options_.level_cost, kMostLevelCost)));
-  }
-
-  // Of what a decoder gets before it applies the original order.
-  static void add_digest(ProgressiveMesh& mesh) {
-    Level level(mesh);
-    level.refine_fully();
-    const auto sum = digest(mesh_of(level).value());
-    mesh.digest.assign(sum.begin(), sum.end());
+    return level_step_cost(vertices, mesh.vertex_count(), sequence.collapses,
+                           static_cast<std::uint8_t>(std::min(options_.level_cost, kMostLevelCost)),
+                           threads);
   }
 
   Result<ProgressiveStrips> join(std::vector<Encoded> encoded) const {
@@ -268,8 +315,9 @@ class Encoder {
 
   const Model& model_;
   const EncodeOptions& options_;
-  const Progress& progress_;
+  SharedProgress progress_;
   std::vector<SimplifyReport>* reports_;
+  std::vector<std::uint64_t> bytes_;  // that each mesh takes to encode
   const NamedStripifier* stripifier_ = nullptr;
   double share_ = 0;
 };

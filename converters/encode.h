@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kMostLevelCost = 100;
 struct EncodeOptions {
   MapEncoding encoding = MapEncoding::offset_difference;
   std::string stripifier = "best";  ///< a name of stripifiers()
-  StripOptions strip_options{};
+  StripOptions strip_options{};     ///< `stop` may be asked by several threads at once
   /// What a step counts for, in indices, that tears its strip at coarser levels; see
   /// level_step_cost(). Of the stripifiers, `best` looks at it. 1 is free: files get no larger.
   /// More shortens the strips of coarse levels and lengthens the file; 0 looks at the full mesh
@@ -40,11 +40,13 @@ struct EncodeOptions {
   Metric metric = Metric::qem;
   /// How much attributes count when collapses are chosen, see AttributeWeight; the others as usual.
   std::vector<AttributeWeight> attribute_weights{};
-  /// That a mesh may take, see check_capacity(); the largest mesh decides.
+  /// That a mesh may take, see check_capacity(), and that those encoded side by side may take
+  /// together.
   std::uint64_t memory_bytes = Limits{}.memory_bytes;
   bool keep_order = false;          ///< vertex, wedge and face order of the source
   double packet_growth = 1.0 / 16;  ///< vertices a packet adds, as a share of those before it
   Index packet_min = 256;           ///< and at least so many
+  unsigned threads = 0;             ///< to work with; 0: one a core. Results do not depend on it
 };
 
 /// How the collapses of one mesh were chosen.
@@ -60,8 +62,9 @@ struct SimplifyReport {
 /// Takes any mesh that find_inconsistency() accepts. Packets of several meshes are interleaved by
 /// the error that a viewer sees, largest first: that of the mesh times its instance_scales(). Up to
 /// any error of the scene the file then holds the fewest packets. Same model and options, same
-/// result.
+/// result, whatever the number of threads.
 ///
+/// progress is asked by several threads, one at a time
 /// reports  one a mesh is added, unless null
 /// errors   bad_argument for an unknown stripifier or an inconsistent mesh or scene, over_limit
 ///          for a mesh that check_capacity() refuses (before any work) or that comes to more than

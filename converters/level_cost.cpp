@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "core/parallel.h"
+
 namespace pstrip {
 namespace {
 
@@ -10,9 +12,8 @@ namespace {
 // than log2 n below its root.
 class MergeTimes {
  public:
-  explicit MergeTimes(Index vertices)
-      : parent_(vertices), joined_(vertices, kNone), size_(vertices, 1) {
-    for (Index v = 0; v < vertices; ++v) parent_[v] = v;
+  explicit MergeTimes(Index vertices) : nodes_(vertices), size_(vertices, 1) {
+    for (Index v = 0; v < vertices; ++v) nodes_[v] = {v, kNone};
   }
 
   void join(Index a, Index b, Index time) {
@@ -20,8 +21,7 @@ class MergeTimes {
     b = root(b);
     if (a == b) return;
     if (size_[a] > size_[b]) std::swap(a, b);
-    parent_[a] = b;
-    joined_[a] = time;
+    nodes_[a] = {b, time};
     size_[b] += size_[a];
   }
 
@@ -29,42 +29,50 @@ class MergeTimes {
   Index time(Index a, Index b) const {
     Index last = 0;
     while (a != b) {
-      if (joined_[a] > joined_[b]) std::swap(a, b);
-      last = joined_[a];
+      if (nodes_[a].joined > nodes_[b].joined) std::swap(a, b);
+      last = nodes_[a].joined;
       if (last == kNone) return kNone;
-      a = parent_[a];
+      a = nodes_[a].parent;
     }
     return last;
   }
 
  private:
   Index root(Index v) const {
-    while (parent_[v] != v) v = parent_[v];
+    while (nodes_[v].parent != v) v = nodes_[v].parent;
     return v;
   }
 
-  std::vector<Index> parent_, joined_, size_;
+  struct Node {
+    Index parent, joined;
+  };
+  std::vector<Node> nodes_;
+  std::vector<Index> size_;
 };
 
 }  // namespace
 
 std::vector<std::uint8_t> level_step_cost(std::span<const Index> triangles, Index vertex_count,
-                                          std::span<const Collapse> collapses, std::uint8_t cost) {
+                                          std::span<const Collapse> collapses, std::uint8_t cost,
+                                          unsigned threads) {
   MergeTimes merged(vertex_count);
   for (Index i = 0; i < collapses.size(); ++i)
     merged.join(collapses[i].removed, collapses[i].kept, i);
   std::vector<std::uint8_t> out(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); t += 3) {
-    Index first = kNone;
-    std::size_t vanishing = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index time = merged.time(triangles[t + k], triangles[t + (k + 1) % 3]);
-      if (time >= first) continue;
-      first = time;
-      vanishing = k;
+  constexpr std::size_t kGrain = 1 << 14;
+  parallel_for(threads, triangles.size() / 3, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = 3 * begin; t < 3 * end; t += 3) {
+      Index first = kNone;
+      std::size_t vanishing = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index time = merged.time(triangles[t + k], triangles[t + (k + 1) % 3]);
+        if (time >= first) continue;
+        first = time;
+        vanishing = k;
+      }
+      if (first != kNone) out[t + vanishing] = cost;
     }
-    if (first != kNone) out[t + vanishing] = cost;
-  }
+  });
   return out;
 }
 

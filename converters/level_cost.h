@@ -20,9 +20,11 @@ namespace pstrip {
 ///
 /// triangles  3 n vertices, not wedges
 /// collapses  each vertex removed at most once, and onto one that is still there
+/// threads    see thread_count(); the costs do not depend on it
 /// returns    3 n costs
 /// cost       O((n + vertices) log vertices)
 std::vector<std::uint8_t> level_step_cost(std::span<const Index> triangles, Index vertex_count,
-                                          std::span<const Collapse> collapses, std::uint8_t cost);
+                                          std::span<const Collapse> collapses, std::uint8_t cost,
+                                          unsigned threads = 1);
 
 }  // namespace pstrip
