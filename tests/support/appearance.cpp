@@ -76,23 +76,29 @@ class Comparison {
  public:
   Comparison(const RenderMesh& original, const RenderMesh& other)
       : original_(original), other_(other) {}
-  void add(const Picture& original, const Picture& other, const Point& toward);
+  void add(const Picture& original, const Picture& other, const Camera& camera);
   Appearance result() const;
 
  private:
   void add_pixel(const Pixel& a, const Pixel& b, const Point& toward);
+  void add_texture(const Pixel& a, const Pixel& b);
   double stretch_between(const Pixel& a, const Pixel& b) const;
   void add_structure(const Picture& original, const Picture& other, const Point& toward);
 
   const Side original_, other_;
   Appearance sums_;
-  std::size_t covered_ = 0, either_ = 0, both_ = 0, windows_ = 0;
+  std::size_t covered_ = 0, either_ = 0, both_ = 0, same_ = 0, windows_ = 0;
 };
 
-void Comparison::add(const Picture& original, const Picture& other, const Point& toward) {
-  for (std::size_t i = 0; i < original.pixels.size(); ++i)
-    add_pixel(original.pixels[i], other.pixels[i], toward);
-  add_structure(original, other, toward);
+void Comparison::add(const Picture& original, const Picture& other, const Camera& camera) {
+  for (std::size_t i = 0; i < original.pixels.size(); ++i) {
+    const Pixel &a = original.pixels[i], &b = other.pixels[i];
+    add_pixel(a, b, camera.toward);
+    if (a.is_covered() && b.is_covered() && a.from_behind == b.from_behind &&
+        std::abs(a.depth - b.depth) < kSameSurface * camera.radius)
+      add_texture(a, b);
+  }
+  add_structure(original, other, camera.toward);
 }
 
 void Comparison::add_pixel(const Pixel& a, const Pixel& b, const Point& toward) {
@@ -115,6 +121,10 @@ void Comparison::add_pixel(const Pixel& a, const Pixel& b, const Point& toward) 
   sums_.depth += (a.depth - b.depth) * (a.depth - b.depth);
   sums_.face_normal += angle(a.face_normal, b.face_normal);
   sums_.vertex_normal += angle(a.vertex_normal, b.vertex_normal);
+}
+
+void Comparison::add_texture(const Pixel& a, const Pixel& b) {
+  ++same_;
   const double u = a.uv[0] - b.uv[0], v = a.uv[1] - b.uv[1];
   sums_.uv += std::min(u * u + v * v, kMostUv * kMostUv);
   sums_.stretch += std::pow(stretch_between(a, b), 2);
@@ -124,9 +134,7 @@ void Comparison::add_pixel(const Pixel& a, const Pixel& b, const Point& toward) 
 double Comparison::stretch_between(const Pixel& a, const Pixel& b) const {
   const TriangleStretch &x = original_.stretches[a.triangle], &y = other_.stretches[b.triangle];
   if (std::isinf(x.squared)) return 0;
-  // Seen from behind, what runs clockwise runs counter-clockwise.
-  const bool x_mirrored = x.mirrored != a.from_behind, y_mirrored = y.mirrored != b.from_behind;
-  if (std::isinf(y.squared) || x_mirrored != y_mirrored) return kMostStretch;
+  if (std::isinf(y.squared) || x.mirrored != y.mirrored) return kMostStretch;
   return std::min(std::abs(std::log2(y.squared / x.squared)) / 2, kMostStretch);
 }
 
@@ -176,8 +184,8 @@ Appearance Comparison::result() const {
           .face_lit = std::sqrt(mean(sums_.face_lit, either_)),
           .vertex_lit = std::sqrt(mean(sums_.vertex_lit, either_)),
           .structure = mean(sums_.structure, windows_),
-          .uv = std::sqrt(mean(sums_.uv, both_)),
-          .stretch = std::sqrt(mean(sums_.stretch, both_))};
+          .uv = std::sqrt(mean(sums_.uv, same_)),
+          .stretch = std::sqrt(mean(sums_.stretch, same_))};
 }
 
 }  // namespace
@@ -188,7 +196,7 @@ Appearance compare_appearance(const RenderMesh& original, const RenderMesh& othe
   Comparison sum(original, other);
   for (const Camera& camera : cameras)
     sum.add(render(original, textures, camera, size), render(other, textures, camera, size),
-            camera.toward);
+            camera);
   return sum.result();
 }
 

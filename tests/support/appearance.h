@@ -9,7 +9,8 @@
 namespace pstrip::test {
 
 /// Differences between pictures of two meshes, from 0: the same. Colours over pixels that either
-/// mesh covers, on grey; the rest over those that both do.
+/// mesh covers, on grey; the rest over those that both do, texture coordinates where they show the
+/// same side of the same surface: at depths that differ by less than kSameSurface.
 struct Appearance {
   double silhouette = 0;     ///< pixels that one mesh covers alone, as a share of the original's
   double depth = 0;          ///< root mean square, model units
@@ -23,11 +24,12 @@ struct Appearance {
   /// apart than kMostUv counting as that: then it is another part of the texture altogether.
   double uv = 0;
   /// Root mean square of the power of two by which a mesh stretches its texture more or less than
-  /// the original does at the same pixel, the mean over all directions. Where the texture is seen
-  /// from behind, or one point of it all over a triangle, it counts as kMostStretch.
+  /// the original does at the same pixel, the mean over all directions. Where the texture is
+  /// mirrored, or one point of it all over a triangle, it counts as kMostStretch.
   double stretch = 0;
 };
 inline constexpr double kMostStretch = 10;
+inline constexpr double kSameSurface = 0.02;  ///< of the camera's radius
 inline constexpr double kMostUv = 0.1;
 
 /// Over one picture of each mesh for each camera.

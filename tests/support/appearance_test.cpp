@@ -78,6 +78,19 @@ TEST(Appearance, TellsWhereTheTextureIs) {
   EXPECT_NEAR(compared(changed([](auto& c) { c.uv[0] += 0.4; })).uv, kMostUv, 1e-12);
 }
 
+TEST(Appearance, ComparesTexturesOfTheSameSurface) {
+  const auto moved = [](double depth) {
+    return changed([depth](auto& c) {
+      c.position[2] = depth;
+      c.uv = {c.uv[0] / 4, 0.4 + c.uv[1] / 4};
+    });
+  };
+  EXPECT_GT(compared(moved(0.5 * kSameSurface)).uv, 0.05);
+  EXPECT_NEAR(compared(moved(0.5 * kSameSurface)).stretch, 2, 1e-12);
+  EXPECT_EQ(compared(moved(2 * kSameSurface)).uv, 0);
+  EXPECT_EQ(compared(moved(2 * kSameSurface)).stretch, 0);
+}
+
 TEST(Appearance, TellsHowTheTextureIsStretched) {
   EXPECT_NEAR(compared(changed([](auto& c) {
                 c.uv = {c.uv[0] / 4, c.uv[1] / 4};
