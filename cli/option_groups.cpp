@@ -160,7 +160,9 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
       ->check(CLI::IsMember({"subset", "optimal"}))
       ->capture_default_str()
       ->group(kGroup);
-  app.add_option("--metric", metric, "What levels are nearest by: qem is quick, memoryless nearer")
+  app.add_option("--metric", metric,
+                 "What levels are nearest by: the faces that are left, or with qem all faces "
+                 "ever replaced")
       ->check(CLI::IsMember({"qem", "memoryless"}))
       ->capture_default_str()
       ->group(kGroup);

@@ -73,7 +73,7 @@ struct StripOptionsGroup {
 struct EncodeOptionsGroup {
   EncodeOptions options;
   std::string placement = "subset";
-  std::string metric = "qem";
+  std::string metric = "memoryless";
   std::vector<std::string> attribute_weights;  ///< NAME=WEIGHT
   std::string strips = "offset";
   std::string base = "5%";

@@ -37,7 +37,7 @@ struct EncodeOptions {
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
   std::optional<double> base_error{};  ///< instead: largest distance estimate, model units
   Placement placement = Placement::subset;
-  Metric metric = Metric::qem;
+  Metric metric = Metric::memoryless;
   /// How much attributes count when collapses are chosen, see AttributeWeight; the others as usual.
   std::vector<AttributeWeight> attribute_weights{};
   /// That a mesh may take, see check_capacity(), and that those encoded side by side may take

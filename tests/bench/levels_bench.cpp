@@ -146,7 +146,7 @@ struct Contender {
 const Contender kContenders[] = {
     {"meshopt", false, meshopt},
     {"subset-qem", true, ours<Placement::subset, Metric::qem>},
-    {"subset-qem+record", true, ours_recorded},
+    {"subset-memoryless+record", true, ours_recorded},
     {"subset-memoryless", true, ours<Placement::subset, Metric::memoryless>},
     {"optimal-qem", true, ours<Placement::free, Metric::qem>},
     {"optimal-memoryless", true, ours<Placement::free, Metric::memoryless>},
