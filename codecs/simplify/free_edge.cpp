@@ -9,6 +9,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -19,6 +20,7 @@
 #include "codecs/simplify/placement.h"
 #include "codecs/simplify/vertex_buckets.h"
 #include "codecs/simplify/wedges.h"
+#include "core/parallel.h"
 
 namespace pstrip {
 namespace {
@@ -105,11 +107,17 @@ class EdgeSimplifier {
     return hold_[v] != hold_[x] ? hold_[v] < hold_[x] : v < x;
   }
   void gather(Index v, Star& star);
+  bool start_plain(Index v, Star& star);
+  void start(Index v, Star& star);
   void update_face(Index triangle);
-  void survey(Index v, const Star& star);
+  void survey(Index v, Star& star);
   void survey(Index v);
   void evaluate(const Star& star);
   void evaluate_all(const Star& star);
+  template <class IsWanted>
+  void evaluate(const Star& star, IsWanted&& is_wanted);
+  void price_plain(const Star& star, const Index (&at)[4]);
+  void apply_limit(const Star& star, StarEdge& edge, float wedge_error) const;
   float least_owned(const Star& star) const;
   void price(const Star& star, StarEdge& edge, float live_weight);
   Sum sum_of(const Star& star, const StarEdge& edge) const;
@@ -167,7 +175,6 @@ void EdgeSimplifier::gather(Index v, Star& star) {
     complex_.gather(v, star);
   else
     complex_.gather_regular(v, star);
-  star.measure();
   if (is_large(v) && star.spokes.size() <= kLargeRing) {
     large_[v] = 0;
     if (memoryless_) survey(v, star);
@@ -178,28 +185,62 @@ void EdgeSimplifier::fill_queue() {
   if (wedges_)
     builder_.add_attributes(attribute_quadrics_.empty() ? nullptr : attribute_quadrics_.data());
   if (memoryless_)
-    for (Index t = 0; t < faces_.size(); ++t) update_face(t);
-  for (Index v = 0; v < complex_.vertex_count(); ++v) {
-    if (complex_.is_locked(v)) continue;
-    VertexRecord& record = complex_.vertices[v];
-    complex_.gather(v, star_);
-    record.regular =
-        star_.open_edges == 0 &&
-        std::ranges::all_of(star_.edges, [](const StarEdge& e) { return e.outgoing == 1; });
-    hold_[v] = star_.open_edges > 2 ? 2 : star_.open_edges > 0 ? 1 : 0;
-    record.quadric.add_matrix(star_.measure());
-    builder_.add_edges(star_, record.quadric);
-    if (memoryless_) survey(v, star_);
-  }
+    parallel_for(options_.threads, faces_.size(), std::size_t{1} << 16,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (Index t = static_cast<Index>(begin); t < end; ++t) update_face(t);
+                 });
+  // Vertices without anything special are many, and do not need one another's scratch memory.
+  constexpr std::size_t kGrain = 4096;
   std::vector<float> keys(complex_.vertex_count(), kInfinity);
-  for (Index v = 0; v < keys.size(); ++v) {
-    if (complex_.is_locked(v)) continue;
-    gather(v, star_);
-    evaluate(star_);
-    keys[v] = least_owned(star_);
-    complex_.vertices[v].key = keys[v];
-  }
+  const auto for_plain_vertices = [&](auto&& visit) {
+    parallel_for(options_.threads, keys.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      Star star;
+      for (Index v = static_cast<Index>(begin); v < end; ++v)
+        if (!complex_.is_locked(v)) visit(v, star);
+    });
+  };
+  std::vector<std::uint8_t> is_plain(keys.size());
+  for_plain_vertices([&](Index v, Star& star) { is_plain[v] = start_plain(v, star); });
+  for (Index v = 0; v < keys.size(); ++v)
+    if (!is_plain[v] && !complex_.is_locked(v)) start(v, star_);
+  const auto take_key = [&](Index v, Star& star) {
+    gather(v, star);
+    evaluate(star);
+    keys[v] = complex_.vertices[v].key = least_owned(star);
+  };
+  for_plain_vertices([&](Index v, Star& star) {
+    if (is_plain[v]) take_key(v, star);
+  });
+  for (Index v = 0; v < keys.size(); ++v)
+    if (!is_plain[v] && !complex_.is_locked(v)) take_key(v, star_);
   queue_.emplace(keys);
+}
+
+// Prepares a vertex whose faces alone count. False if it is not one.
+bool EdgeSimplifier::start_plain(Index v, Star& star) {
+  if (wedges_ || !input_.group.empty()) return false;
+  complex_.gather_regular(v, star);
+  if (!star.is_regular()) return false;
+  const Quadric faces = star.measure();
+  if (QuadricBuilder::may_fold(star)) return false;
+  VertexRecord& record = complex_.vertices[v];
+  record.regular = true;
+  record.quadric = faces;
+  if (memoryless_) survey(v, star);
+  return true;
+}
+
+// The same for any vertex.
+void EdgeSimplifier::start(Index v, Star& star) {
+  VertexRecord& record = complex_.vertices[v];
+  complex_.gather(v, star);
+  record.regular = star.open_edges == 0 && std::ranges::all_of(star.edges, [](const StarEdge& e) {
+                     return e.outgoing == 1;
+                   });
+  hold_[v] = star.open_edges > 2 ? 2 : star.open_edges > 0 ? 1 : 0;
+  record.quadric.add_matrix(star.measure());
+  builder_.add_edges(star, record.quadric);
+  if (memoryless_) survey(v, star);
 }
 
 void EdgeSimplifier::update_face(Index t) {
@@ -211,10 +252,13 @@ void EdgeSimplifier::update_face(Index t) {
   if (length > 0) faces_[t] = {n * (1 / length), length / 2};
 }
 
-void EdgeSimplifier::survey(Index v, const Star& star) {
+void EdgeSimplifier::survey(Index v, Star& star) {
   Surroundings around;
   for (const Spoke& spoke : star.spokes) around.add(faces_[spoke.corner / 4]);
-  if (has_line_terms(v)) builder_.add_edges(star, around.planes);
+  if (has_line_terms(v)) {
+    star.measure();
+    builder_.add_edges(star, around.planes);
+  }
   around_[v] = around;
 }
 
@@ -234,18 +278,35 @@ void EdgeSimplifier::survey(Index v) {
 // Fills costs and places of the star's edges, guards aside; those that it does not own cost
 // infinity.
 void EdgeSimplifier::evaluate(const Star& star) {
-  if (memoryless_)
-    for (const StarEdge& edge : star.edges) __builtin_prefetch(&around_[edge.vertex]);
-  const float live_weight = wedges_ ? wedges_->live_weight(star) : 0;
-  for (StarEdge& edge : star.edges) {
-    edge.cost = kInfinity;
-    if (owns(star.vertex, edge.vertex)) price(star, edge, live_weight);
-  }
+  evaluate(star, [&](Index x) { return owns(star.vertex, x); });
 }
 
 void EdgeSimplifier::evaluate_all(const Star& star) {
+  evaluate(star, [](Index) { return true; });
+}
+
+template <class IsWanted>
+void EdgeSimplifier::evaluate(const Star& star, IsWanted&& is_wanted) {
+  if (memoryless_)
+    for (const StarEdge& edge : star.edges) __builtin_prefetch(&around_[edge.vertex]);
   const float live_weight = wedges_ ? wedges_->live_weight(star) : 0;
-  for (StarEdge& edge : star.edges) price(star, edge, live_weight);
+  const bool is_plain = memoryless_ && !has_line_terms(star.vertex) && !is_large(star.vertex);
+  Index four[4];
+  std::size_t waiting = 0;
+  for (Index i = 0; i < star.edges.size(); ++i) {
+    StarEdge& edge = star.edges[i];
+    edge.cost = kInfinity;
+    if (!is_wanted(edge.vertex)) continue;
+    if (!is_plain || is_large(edge.vertex) || complex_.is_locked(edge.vertex)) {
+      price(star, edge, live_weight);
+      continue;
+    }
+    four[waiting++] = i;
+    if (waiting == 4) price_plain(star, four), waiting = 0;
+  }
+  if (waiting == 0) return;
+  for (std::size_t i = waiting; i < 4; ++i) four[i] = four[0];
+  price_plain(star, four);
 }
 
 float EdgeSimplifier::least_owned(const Star& star) const {
@@ -290,6 +351,78 @@ EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edg
   return sum;
 }
 
+// Prices four edges of a star at once, given by their places in it, where nothing but the faces
+// around them counts. Needs a star as gather_regular() makes it: spoke i is on edge i.
+void EdgeSimplifier::price_plain(const Star& star, const Index (&at)[4]) {
+  const Surroundings& mine = around_[star.vertex];
+  const Surroundings* its[4];
+  const VertexPoint* ends[4];
+  const Face* faces[2][4];  // the two on each edge
+  EdgeSums sums;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Index p = star.edges[at[i]].vertex;
+    its[i] = &around_[p];
+    faces[0][i] = &faces_[star.spokes[at[i]].corner / 4];
+    faces[1][i] = &faces_[std::ranges::find(star.spokes, p, &Spoke::previous)->corner / 4];
+    ends[i] = &complex_.points[p];
+  }
+  // Four floats of each, from the `first` on.
+  const auto columns = [](const auto* const(&of)[4], std::size_t first, Float4& a, Float4& b,
+                          Float4& c, Float4& d) {
+    const auto row = [&](std::size_t i) {
+      return load4(reinterpret_cast<const std::byte*>(of[i]) + first * sizeof(float));
+    };
+    Float4 x = row(0), y = row(1), z = row(2), w = row(3);
+    transpose4(x, y, z, w);
+    a = x, b = y, c = z, d = w;
+  };
+  static_assert(offsetof(Quadric, b) == 6 * sizeof(float) &&
+                offsetof(Surroundings, area) == 10 * sizeof(float));
+  Float4 unused;
+  columns(ends, 0, sums.offset.x, sums.offset.y, sums.offset.z, unused);
+  sums.offset = sums.offset - complex_.points[star.vertex].position;
+  columns(its, 0, sums.xx, sums.yy, sums.zz, sums.xy);
+  columns(its, 4, sums.xz, sums.yz, unused, unused);
+  columns(its, 8, unused, unused, sums.area.x, sums.area.y);
+  columns(its, 12, sums.area.z, unused, unused, unused);
+
+  // All planes pass through their vertex.
+  const Vec3x4& o = sums.offset;
+  const Vec3x4 slope = {sums.xx * o.x + sums.xy * o.y + sums.xz * o.z,
+                        sums.xy * o.x + sums.yy * o.y + sums.yz * o.z,
+                        sums.xz * o.x + sums.yz * o.y + sums.zz * o.z};
+  const Float4 constant = dot(slope, o);
+  sums.b = {-slope.x, -slope.y, -slope.z};
+  sums.volume = dot(sums.area, o);
+  sums.xx += mine.planes.xx, sums.yy += mine.planes.yy, sums.zz += mine.planes.zz;
+  sums.xy += mine.planes.xy, sums.xz += mine.planes.xz, sums.yz += mine.planes.yz;
+  sums.area.x += mine.area.x, sums.area.y += mine.area.y, sums.area.z += mine.area.z;
+  for (const auto& four : faces) {  // counted twice
+    Vec3x4 normal;
+    Float4 area;
+    columns(four, 0, normal.x, normal.y, normal.z, area);
+    sums.add_plane(normal, -area);
+  }
+
+  const Vec3x4 place = free_ ? best_place(sums) : o;
+  const Float4 error = max4(constant + sums.at(place), Float4{});
+  const Float4 cost = error + kLengthShare * mine.planes.weight * dot(o, o);
+  for (std::size_t i = 0; i < 4; ++i) {
+    StarEdge& edge = star.edges[at[i]];
+    edge.place = place.lane(i);
+    edge.error = error[i];
+    edge.cost = cost[i] < kInfinity ? cost[i] : kInfinity;
+    apply_limit(star, edge, 0);
+  }
+}
+
+void EdgeSimplifier::apply_limit(const Star& star, StarEdge& edge, float wedge_error) const {
+  if (most_error_ == kInfinity) return;
+  const Index q = star.vertex, p = edge.vertex;
+  const float all = complex_.vertices[q].quadric.weight + complex_.vertices[p].quadric.weight;
+  if (history_error(q, p, edge.place) + wedge_error > most_error_ * all) edge.cost = kInfinity;
+}
+
 void EdgeSimplifier::price(const Star& star, StarEdge& edge, float live_weight) {
   const Index q = star.vertex, p = edge.vertex;
   if (complex_.is_locked(p)) {
@@ -321,11 +454,7 @@ void EdgeSimplifier::price(const Star& star, StarEdge& edge, float live_weight) 
   edge.cost = edge.error + kLengthShare * weight * length + wedge_cost.conflicts +
               kCarriedShare * carried * length;
   if (!(edge.cost < kInfinity)) edge.cost = kInfinity;
-  if (most_error_ < kInfinity) {
-    const float after = history_error(q, p, edge.place) + wedge_cost.at(edge.place);
-    const float all = complex_.vertices[q].quadric.weight + complex_.vertices[p].quadric.weight;
-    if (after > most_error_ * all) edge.cost = kInfinity;
-  }
+  apply_limit(star, edge, wedge_cost.at(edge.place));
 }
 
 // What all faces ever replaced say of a place, given relative to q.
@@ -355,6 +484,7 @@ const StarEdge* EdgeSimplifier::choose(Index q, float limit) {
       return nullptr;
     }
     if (best->refused != Guard::none) return best;
+    if (checks == 0) star_.measure();
     const bool give_up = large && checks == kMostGuardChecks;
     for (StarEdge& edge : star_.edges) {
       if (give_up ? edge.refused != Guard::none : &edge != best) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "codecs/simplify/float4.h"
 #include "codecs/simplify/quadric.h"
 
 namespace pstrip {
@@ -20,5 +21,21 @@ struct Volume {
 /// source   [Garland97 §4; Lindstrom98 §3]. Differs: what is missing to a definite place is not a
 ///          separate problem of triangle shape, a weak pull to the middle decides it.
 Vec3f best_place(const Quadric& quadric, const Volume& volume, Vec3f offset);
+
+/// Four edges from one end, with what Quadric and Volume say of each.
+struct EdgeSums {
+  Vec3x4 offset;
+  Float4 xx = {}, yy = {}, zz = {}, xy = {}, xz = {}, yz = {};
+  Vec3x4 b;
+  Vec3x4 area;
+  Float4 volume = {};
+
+  void add_plane(const Vec3x4& unit_normal, Float4 amount);
+  /// As Quadric::at().
+  Float4 at(const Vec3x4& place) const;
+  Quadric quadric(std::size_t lane) const;
+};
+/// The same for four edges at once.
+Vec3x4 best_place(const EdgeSums& sums);
 
 }  // namespace pstrip

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace pstrip {
 namespace {
 
@@ -47,6 +49,33 @@ TEST(BestPlace, IsTheMiddleWhereNothingElseIsAsked) {
 TEST(BestPlace, IsAnEndWhenTheBestIsFarOff) {
   expect_near(best_place(corner_at({100, 0, 0}), {}, kOffset), kOffset, 0);
   expect_near(best_place(corner_at({-100, 0, 0}), {}, kOffset), {0, 0, 0}, 0);
+}
+
+TEST(BestPlace, IsTheSameForFourEdgesAtOnce) {
+  const Quadric quadrics[] = {corner_at({1, 0.5f, -0.25f}), corner_at({100, 0, 0}), Quadric{},
+                              corner_at({0.5f, 0, 0.1f})};
+  const Volume volumes[] = {{{0, 0.5f, 2}, 1.5f}, {}, {}, {{0.1f, 0, 0}, 0.06f}};
+  const Vec3f offsets[] = {kOffset, kOffset, {1, 2, 3}, {1, 0, 0.5f}};
+  EdgeSums sums;
+  const auto set = [](Vec3x4& four, std::size_t i, Vec3f v) {
+    four.x[i] = v.x, four.y[i] = v.y, four.z[i] = v.z;
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Quadric& q = quadrics[i];
+    sums.xx[i] = q.xx, sums.yy[i] = q.yy, sums.zz[i] = q.zz;
+    sums.xy[i] = q.xy, sums.xz[i] = q.xz, sums.yz[i] = q.yz;
+    set(sums.b, i, q.b);
+    set(sums.area, i, volumes[i].area);
+    sums.volume[i] = volumes[i].constant;
+    set(sums.offset, i, offsets[i]);
+  }
+  const Vec3x4 places = best_place(sums);
+  const Float4 values = sums.at(places);
+  for (std::size_t i = 0; i < 4; ++i) {
+    SCOPED_TRACE(i);
+    expect_near(places.lane(i), best_place(quadrics[i], volumes[i], offsets[i]), 1e-6f);
+    EXPECT_NEAR(values[i], quadrics[i].at(places.lane(i)), 1e-6f * (1 + std::abs(values[i])));
+  }
 }
 
 }  // namespace
