@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <limits>
 #include <map>
@@ -8,21 +9,20 @@
 #include <set>
 #include <tuple>
 
+#include "core/parallel.h"
 #include "formats/obj/census.h"
+#include "formats/obj/geometry.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/names.h"
 #include "formats/obj/numbers.h"
 #include "formats/obj/obj.h"
+#include "formats/obj/runs.h"
 #include "formats/obj/wedges.h"
 
 namespace pstrip {
 namespace {
 
-using obj::Number;
 using obj::WedgeTable;
-
-// Bits of a `v` or `vt` line beside those of ObjPresent: which of its numbers fit a float.
-constexpr std::uint8_t kUvFit = 1, kTexWFits = 2;
 
 /// Strings by number, in order of their first use.
 class Names {
@@ -40,37 +40,11 @@ class Names {
   std::vector<const std::string*> names_;  // map nodes stay where they are
 };
 
-/// The lines of one kind that corners refer to; they may follow later in the file.
-struct Referenced {
-  std::uint64_t count = 0;
-  std::uint64_t largest = 0;        ///< index referred to, from 1
-  std::uint64_t total = kMaxCount;  ///< the largest that may be
-};
-
-/// What a file has of each attribute, its values and which of them fit a float.
-struct VertexValues {
-  std::vector<double> position;     ///< three a vertex
-  std::vector<double> color;        ///< four a vertex, or empty: no vertex has a colour
-  std::vector<double> weight;       ///< one a vertex, or empty
-  std::vector<std::uint8_t> flags;  ///< of ObjPresent, one a vertex, or empty: all 0
-  bool position_fits = true, color_fits = true, weight_fits = true;
-};
-
-/// A list with an element for each corner or face that stays empty until one differs from `usual`.
-template <class T>
-void append_sparse(std::vector<T>& list, std::size_t before, T value, T usual) {
-  if (list.empty()) {
-    if (value == usual) return;
-    list.assign(before, usual);
-  }
-  list.push_back(value);
-}
-
 /// Reads statement by statement into flat arrays, then makes the mesh of them.
 class ObjReader {
  public:
-  ObjReader(ByteView file, const ReadFile& read_file, const Limits& limits)
-      : text_(as_text(file)), read_file_(read_file), limits_(limits) {}
+  ObjReader(ByteView file, const ReadFile& read_file, const Limits& limits, std::size_t run_bytes)
+      : text_(as_text(file)), read_file_(read_file), limits_(limits), run_bytes_(run_bytes) {}
 
   Result<Model> read() {
     if (!expect_room() || !read_statements() || !check_references() || !build())
@@ -79,12 +53,6 @@ class ObjReader {
   }
 
  private:
-  std::uint64_t most_vertices() const {
-    return std::min<std::uint64_t>(limits_.vertices, kMaxCount);
-  }
-  std::uint64_t most_tuples() const { return std::min<std::uint64_t>(limits_.wedges, kMaxCount); }
-  std::uint64_t most_corners() const { return std::min<std::uint64_t>(limits_.corners, kMaxCount); }
-
   /// Refuses a text that is long enough to hold more than the limits, and does, before it is read.
   bool expect_room() {
     constexpr std::uint64_t kShortestVertex = 8;     // "v 0 0 0\n"
@@ -92,19 +60,21 @@ class ObjReader {
     constexpr std::uint64_t kShortestFace = 4;       // "f 1\n"
     constexpr std::uint64_t kMemoryACharacter = 12;  // of the shortest vertices
     const std::uint64_t size = text_.size();
-    if (size / kShortestVertex <= most_vertices() && size / kShortestTuple <= most_tuples() &&
-        size / kShortestFace <= most_corners() && size * kMemoryACharacter <= limits_.memory_bytes)
+    if (size / kShortestVertex <= obj::most_vertices(limits_) &&
+        size / kShortestTuple <= obj::most_tuples(limits_) &&
+        size / kShortestFace <= obj::most_corners(limits_) &&
+        size * kMemoryACharacter <= limits_.memory_bytes)
       return true;
     const obj::Census census = obj::take_census(text_);
     const auto over = [&](std::uint64_t figure, std::string_view what, std::uint64_t limit) {
       return figure > limit &&
              !refuse_at(ErrorCode::over_limit, over_limit_message(figure, what, limit), 0);
     };
-    return !over(census.vertices, "vertices", most_vertices()) &&
-           !over(census.tuples, "vt and vn lines", 2 * most_tuples()) &&
-           !over(census.faces, "face corners", most_corners()) &&
-           !over(census.vertices * kVertexBytes + census.tuples * kTupleBytes +
-                     census.faces * kCornerBytes,
+    return !over(census.vertices, "vertices", obj::most_vertices(limits_)) &&
+           !over(census.tuples, "vt and vn lines", 2 * obj::most_tuples(limits_)) &&
+           !over(census.faces, "face corners", obj::most_corners(limits_)) &&
+           !over(census.vertices * obj::kVertexBytes + census.tuples * obj::kTupleBytes +
+                     census.faces * obj::kCornerBytes,
                  "bytes of memory", limits_.memory_bytes);
   }
 
@@ -112,93 +82,148 @@ class ObjReader {
 
   bool read_statements() {
     constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";
-    std::size_t at = text_.starts_with(kUtf8Mark) ? kUtf8Mark.size() : 0;
-    const char line_end = text_.find('\n') == text_.npos ? '\r' : '\n';
-    while (at < text_.size()) {
-      std::size_t end = std::min(text_.find(line_end, at), text_.size());
-      std::string_view line = text_.substr(at, end - at);
-      line_at_ = at;
-      at_last_ = end == text_.size();
-      if (is_continued(line) && !obj::trimmed(line).starts_with('#')) {
-        end = join_lines(end, line_end);
-        line = joined_;
-      }
-      begin_ = p_ = line.data();
-      end_ = p_ + line.size();
-      if (!read_statement()) return false;
-      if (charged_ > limits_.memory_bytes)
-        return refuse(ErrorCode::over_limit,
-                      over_limit_message(charged_, "bytes of memory", limits_.memory_bytes));
-      at = end + 1;
-    }
+    line_end_ = text_.find('\n') == text_.npos ? '\r' : '\n';
+    const bool in_runs = thread_count(limits_.threads) > 1 && text_.size() > run_bytes_;
+    for (std::size_t at = text_.starts_with(kUtf8Mark) ? kUtf8Mark.size() : 0; at < text_.size();)
+      if (!(in_runs && header_ended_ ? read_runs(at) : read_line(at))) return false;
     if (!statements_ && first_unknown_)
       return refuse_at(ErrorCode::corrupt, "has no statement of an OBJ file", *first_unknown_);
     return true;
   }
 
-  static bool is_continued(std::string_view line) {
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line.ends_with('\\');
+  /// Reads the line at `at` with those that continue it, and moves behind them.
+  bool read_line(std::size_t& at) {
+    std::size_t end = std::min(text_.find(line_end_, at), text_.size());
+    std::string_view line = text_.substr(at, end - at);
+    line_at_ = at;
+    cursor_.at_last = end == text_.size();
+    if (obj::is_continued(line) && !obj::trimmed(line).starts_with('#')) {
+      end = join_lines(end);
+      line = joined_;
+    }
+    begin_ = cursor_.p = line.data();
+    cursor_.end = begin_ + line.size();
+    at = end + 1;
+    if (!read_statement()) return false;
+    return charged() <= limits_.memory_bytes ||
+           refuse(ErrorCode::over_limit,
+                  over_limit_message(charged(), "bytes of memory", limits_.memory_bytes));
+  }
+
+  // Runs. Some are read at once, then told one after the other.
+
+  bool read_runs(std::size_t& at) {
+    constexpr std::size_t kRunsAtOnce = 16;
+    std::vector<obj::Run> runs;
+    while (at < text_.size() && runs.size() < kRunsAtOnce) {
+      obj::Run& run = runs.emplace_back();
+      run.begin = at;
+      run.end = at = obj::run_end(text_, at, run_bytes_, line_end_);
+      run.geometry.vertices.total = geometry_.vertices.total;
+      run.geometry.texcoords.total = geometry_.texcoords.total;
+      run.geometry.normals.total = geometry_.normals.total;
+    }
+    parallel_for(limits_.threads, runs.size(), 1, [&](std::size_t i, std::size_t) {
+      obj::read_run(runs[i], text_, line_end_, limits_);
+    });
+    for (obj::Run& run : runs) {
+      if (!(run.good && has_room(run) ? take(run) : read_lines(run))) return false;
+      run = {};
+    }
+    return true;
+  }
+
+  /// Line by line: the first fault shows, and where.
+  bool read_lines(const obj::Run& run) {
+    for (std::size_t at = run.begin; at < run.end;)
+      if (!read_line(at)) return false;
+    return true;
+  }
+
+  /// Whether a run breaks no limit, whatever its events are.
+  bool has_room(const obj::Run& run) const {
+    const std::uint64_t others = run.events.empty() ? 0 : run.end - run.begin;
+    const auto fits = [&](std::uint64_t all, std::uint64_t more, std::uint64_t most) {
+      return all + more + others <= most;
+    };
+    const obj::Geometry &all = geometry_, &more = run.geometry;
+    return fits(all.vertices.count, more.vertices.count, obj::most_vertices(limits_)) &&
+           fits(all.texcoords.count, more.texcoords.count, obj::most_tuples(limits_)) &&
+           fits(all.normals.count, more.normals.count, obj::most_tuples(limits_)) &&
+           fits(all.corner_vertex.size(), more.corner_vertex.size(), obj::most_corners(limits_)) &&
+           charged() + run.most_bytes(kNameBytes) <= limits_.memory_bytes;
+  }
+
+  bool take(const obj::Run& run) {
+    obj::Extent from;
+    for (const obj::Event& event : run.events) {
+      append(run.geometry, from, event.before);
+      from = event.before;
+      std::size_t at = event.line_at;
+      if (!read_line(at)) return false;
+    }
+    append(run.geometry, from, obj::extent_of(run.geometry));
+    return true;
+  }
+
+  void append(const obj::Geometry& more, const obj::Extent& from, const obj::Extent& to) {
+    obj::append(geometry_, more, from, to);
+    const std::size_t faces = to.faces - from.faces;
+    statements_ |= to.vertices + to.texcoords + to.normals + to.faces > 0;
+    if (faces == 0) return;
+    const Index group = current_group_[static_cast<std::size_t>(FaceKind::polygons)];
+    assert(group != kNone);  // the first face of a group is an event
+    face_group_.insert(face_group_.end(), faces, group);
+    if (has_smoothing_) face_smoothing_.insert(face_smoothing_.end(), faces, smoothing_);
   }
 
   /// Joins a line with those that continue it into joined_, blanks in place of the line ends, so
   /// that positions stay what they are. Returns the end of the last one.
-  std::size_t join_lines(std::size_t end, char line_end) {
+  std::size_t join_lines(std::size_t end) {
     joined_.assign(text_.substr(line_at_, end - line_at_));
-    while (is_continued(joined_)) {
+    while (obj::is_continued(joined_)) {
       joined_[joined_.find_last_of('\\')] = ' ';
       if (end == text_.size()) break;
-      const std::size_t next = std::min(text_.find(line_end, end + 1), text_.size());
+      const std::size_t next = std::min(text_.find(line_end_, end + 1), text_.size());
       joined_ += ' ';
       joined_ += text_.substr(end + 1, next - end - 1);
       end = next;
     }
-    at_last_ = end == text_.size();
+    cursor_.at_last = end == text_.size();
     return end;
   }
 
-  void skip_space() {
-    while (p_ != end_ && obj::is_space(*p_)) ++p_;
-  }
-  bool at_end() {
-    skip_space();
-    return p_ == end_ || *p_ == '#';
-  }
-  std::string_view rest() const { return {p_, static_cast<std::size_t>(end_ - p_)}; }
+  std::string_view rest() const { return cursor_.rest(); }
 
   // Errors.
 
   bool refuse_at(ErrorCode code, std::string message, std::uint64_t offset) {
     const auto before = text_.substr(0, offset);
-    const char line_end = text_.find('\n') == text_.npos ? '\r' : '\n';
-    const auto line = 1 + std::ranges::count(before, line_end);
+    const auto line = 1 + std::ranges::count(before, line_end_);
     error_ = Error{code, std::move(message), offset, "line " + std::to_string(line)};
     return false;
   }
-  std::uint64_t offset() const { return line_at_ + static_cast<std::size_t>(p_ - begin_); }
+  std::uint64_t offset() const { return line_at_ + static_cast<std::size_t>(cursor_.p - begin_); }
   bool refuse(ErrorCode code, std::string message) {
     return refuse_at(code, std::move(message), offset());
   }
-  /// For a statement that stops too early: more bytes mend the last line of a file.
-  bool refuse_short(std::string message) {
-    const bool cut = at_last_ && p_ == end_;
-    return refuse(cut ? ErrorCode::truncated : ErrorCode::corrupt, std::move(message));
-  }
+  /// What a statement's own reader says.
+  bool accept(bool good) { return good || refuse(cursor_.code, std::move(cursor_.message)); }
 
   // Statements.
 
   bool read_statement() {
-    skip_space();
-    if (p_ == end_) return true;
-    const char* const word_begin = p_;
-    if (*p_ == '#') return read_comment();
-    while (p_ != end_ && !obj::is_space(*p_)) ++p_;
-    const std::string_view word(word_begin, static_cast<std::size_t>(p_ - word_begin));
+    cursor_.skip_space();
+    if (cursor_.p == cursor_.end) return true;
+    const char* const word_begin = cursor_.p;
+    if (*cursor_.p == '#') return read_comment();
+    while (cursor_.p != cursor_.end && !obj::is_space(*cursor_.p)) ++cursor_.p;
+    const std::string_view word(word_begin, static_cast<std::size_t>(cursor_.p - word_begin));
     header_ended_ = true;
-    if (word == "v") return known() && read_vertex();
+    if (word == "v") return known() && accept(read_vertex(cursor_, geometry_, limits_));
     if (word == "f" || word == "fo") return known() && read_face(FaceKind::polygons);
-    if (word == "vt") return known() && read_texcoord();
-    if (word == "vn") return known() && read_normal();
+    if (word == "vt") return known() && accept(read_texcoord(cursor_, geometry_, limits_));
+    if (word == "vn") return known() && accept(read_normal(cursor_, geometry_, limits_));
     if (word == "l") return known() && read_face(FaceKind::lines);
     if (word == "p") return known() && read_face(FaceKind::points);
     if (word == "g") return known() && set_name(group_, obj::clean_group(rest()));
@@ -206,7 +231,7 @@ class ObjReader {
     if (word == "usemtl") return known() && set_name(material_, obj::clean_name(rest()));
     if (word == "s" && read_smoothing()) return known();
     if (word == "mtllib") return known() && read_mtllib();
-    p_ = word_begin;
+    cursor_.p = word_begin;
     if (!first_unknown_) first_unknown_ = offset();
     return keep_line(notes_, rest());
   }
@@ -214,8 +239,7 @@ class ObjReader {
   bool known() { return statements_ = true; }
 
   bool read_comment() {
-    constexpr std::string_view kNote = "# note: ";
-    if (rest().starts_with(kNote)) return keep_line(notes_, rest().substr(kNote.size()));
+    if (rest().starts_with(obj::kNote)) return keep_line(notes_, rest().substr(obj::kNote.size()));
     return header_ended_ || keep_line(header_, rest());
   }
 
@@ -227,147 +251,19 @@ class ObjReader {
     return true;
   }
 
-  /// Reads the numbers of a statement up to its end; refuses fewer than `least` or more than fit.
-  template <std::size_t n>
-  bool read_numbers(std::array<Number, n>& numbers, std::size_t least, std::size_t& count) {
-    for (count = 0; !at_end(); ++count) {
-      if (count == n) return refuse(ErrorCode::corrupt, "more numbers than the statement takes");
-      const char* const next = obj::parse_number(p_, end_, numbers[count]);
-      if (!next) return refuse(ErrorCode::corrupt, "not a number, or not in the range of a double");
-      p_ = next;
-    }
-    return count >= least || refuse_short("fewer numbers than the statement needs");
-  }
-
-  bool read_vertex() {
-    std::array<Number, 7> numbers;
-    std::size_t count = 0;
-    if (!read_numbers(numbers, 3, count)) return false;
-    if (count == 5) return refuse(ErrorCode::corrupt, "five numbers in a vertex");
-    if (vertices_.count >= most_vertices())
-      return refuse(ErrorCode::over_limit,
-                    over_limit_message(vertices_.count + 1, "vertices", most_vertices()));
-    for (std::size_t i = 0; i < 3; ++i) {
-      values_.position.push_back(numbers[i].value);
-      values_.position_fits &= numbers[i].fits_f32;
-    }
-    std::uint8_t flags = 0;
-    if (count == 4) flags = kHasWeight;
-    if (count >= 6) flags = kHasColor;
-    if (count == 7) flags |= kHasAlpha;
-    append_sparse(values_.flags, vertices_.count, flags, std::uint8_t{0});
-    if (flags & kHasWeight) {
-      values_.weight.resize(vertices_.count);
-      values_.weight.push_back(numbers[3].value);
-      values_.weight_fits &= numbers[3].fits_f32;
-    }
-    if (flags & kHasColor) {
-      values_.color.resize(4 * vertices_.count);
-      for (std::size_t i = 3; i < 7; ++i) {
-        values_.color.push_back(numbers[i].value);
-        values_.color_fits &= numbers[i].fits_f32;
-      }
-    }
-    ++vertices_.count;
-    charge(kVertexBytes);
-    return true;
-  }
-
-  bool read_texcoord() {
-    std::array<Number, 3> numbers;
-    std::size_t count = 0;
-    if (!read_numbers(numbers, 1, count)) return false;
-    for (const Number& number : numbers) texcoord_.push_back(number.value);
-    std::uint8_t flags = kHasTexcoord;
-    if (count >= 2) flags |= kHasTexV;
-    if (count == 3) flags |= kHasTexW;
-    texcoord_flags_.push_back(flags);
-    const bool uv_fit = numbers[0].fits_f32 && numbers[1].fits_f32;
-    texcoord_fits_.push_back(
-        static_cast<std::uint8_t>((uv_fit ? kUvFit : 0) | (numbers[2].fits_f32 ? kTexWFits : 0)));
-    ++texcoords_.count;
-    return check_tuple_count(texcoords_.count);
-  }
-
-  bool read_normal() {
-    std::array<Number, 3> numbers;
-    std::size_t count = 0;
-    if (!read_numbers(numbers, 3, count)) return false;
-    bool fits = true;
-    for (const Number& number : numbers) {
-      normal_.push_back(number.value);
-      fits &= number.fits_f32;
-    }
-    normal_fits_.push_back(fits);
-    ++normals_.count;
-    return check_tuple_count(normals_.count);
-  }
-
-  bool check_tuple_count(std::uint64_t count) {
-    charge(kTupleBytes);
-    return count <= most_tuples() ||
-           refuse(ErrorCode::over_limit,
-                  over_limit_message(count, "vt or vn lines", most_tuples()));
-  }
-
   bool read_face(FaceKind kind) {
-    const std::size_t first = corner_vertex_.size();
-    while (!at_end()) {
-      if (!read_corner()) return false;
+    const std::size_t first = geometry_.corner_vertex.size();
+    while (!cursor_.at_end()) {
+      if (!accept(read_corner(cursor_, geometry_))) return false;
       if (kind == FaceKind::points) end_face(kind);
     }
-    const std::size_t corners = corner_vertex_.size() - first;
-    if (corners == 0) return refuse_short("an element without a corner");
-    if (corner_vertex_.size() > most_corners())
+    const std::size_t corners = geometry_.corner_vertex.size();
+    if (corners == first) return accept(cursor_.refuse_short("an element without a corner"));
+    if (corners > obj::most_corners(limits_))
       return refuse(ErrorCode::over_limit,
-                    over_limit_message(corner_vertex_.size(), "face corners", most_corners()));
+                    over_limit_message(corners, "face corners", obj::most_corners(limits_)));
     if (kind != FaceKind::points) end_face(kind);
-    charge(corners * kCornerBytes);
     return error_ == std::nullopt;
-  }
-
-  /// v, v/vt, v//vn or v/vt/vn, where "v/" and "v//" occur and mean v.
-  bool read_corner() {
-    Index v = kNone, vt = kNone, vn = kNone;
-    if (!read_index(vertices_, v)) return false;
-    if (p_ != end_ && *p_ == '/') {
-      ++p_;
-      if (!at_corner_part_end() && !read_index(texcoords_, vt)) return false;
-      if (p_ != end_ && *p_ == '/') {
-        ++p_;
-        if (!at_corner_part_end() && !read_index(normals_, vn)) return false;
-      }
-    }
-    if (p_ != end_ && !obj::is_space(*p_)) return refuse(ErrorCode::corrupt, "not a face corner");
-    append_sparse(corner_texcoord_, corner_vertex_.size(), vt, kNone);
-    append_sparse(corner_normal_, corner_vertex_.size(), vn, kNone);
-    corner_vertex_.push_back(v);
-    return true;
-  }
-
-  bool at_corner_part_end() const { return p_ == end_ || *p_ == '/' || obj::is_space(*p_); }
-
-  /// A reference to the lines of one kind: from 1, or from -1 back from the newest.
-  bool read_index(Referenced& lines, Index& index) {
-    const char* const start = p_;
-    const bool relative = p_ != end_ && *p_ == '-';
-    if (relative) ++p_;
-    constexpr std::uint64_t kPastAll = std::uint64_t{1} << 40;
-    std::uint64_t value = 0;
-    const char* const digits = p_;
-    for (; p_ != end_ && *p_ >= '0' && *p_ <= '9'; ++p_)
-      value = std::min(10 * value + static_cast<std::uint64_t>(*p_ - '0'), kPastAll);
-    if (p_ == digits)
-      return relative ? refuse_short("not an index") : refuse(ErrorCode::corrupt, "not an index");
-    const bool in_range = value != 0 && value <= (relative ? lines.count : lines.total);
-    if (!in_range) {
-      p_ = start;
-      return refuse(ErrorCode::corrupt, value == 0 ? "index 0" : "index out of range");
-    }
-    if (relative) value = lines.count + 1 - value;
-    lines.largest = std::max(lines.largest, value);
-    index = static_cast<Index>(value - 1);
-    return true;
   }
 
   /// `s 3`, `s off`, or `s` for off; others are left to the notes.
@@ -384,7 +280,7 @@ class ObjReader {
         if (value > std::numeric_limits<std::uint32_t>::max()) return false;
       }
     }
-    if (!has_smoothing_) face_smoothing_.assign(face_first_.size() - 1, 0);
+    if (!has_smoothing_) face_smoothing_.assign(geometry_.face_first.size() - 1, 0);
     has_smoothing_ = true;
     smoothing_ = static_cast<std::uint32_t>(value);
     return true;
@@ -404,7 +300,7 @@ class ObjReader {
     Index& group = current_group_[static_cast<std::size_t>(kind)];
     if (group == kNone) group = find_group(kind);
     face_group_.push_back(group);
-    face_first_.push_back(static_cast<Index>(corner_vertex_.size()));
+    geometry_.face_first.push_back(static_cast<Index>(geometry_.corner_vertex.size()));
     if (has_smoothing_) face_smoothing_.push_back(smoothing_);
   }
 
@@ -474,13 +370,15 @@ class ObjReader {
 
   /// When a reference leads nowhere, a second reader that knows the totals finds the first such.
   bool check_references() {
-    const auto in_range = [](const Referenced& lines) { return lines.largest <= lines.count; };
-    if (in_range(vertices_) && in_range(texcoords_) && in_range(normals_)) return true;
+    const auto in_range = [](const obj::Referenced& lines) { return lines.largest <= lines.count; };
+    if (in_range(geometry_.vertices) && in_range(geometry_.texcoords) &&
+        in_range(geometry_.normals))
+      return true;
     const ReadFile no_file;
-    ObjReader second(as_bytes(text_), no_file, limits_);
-    second.vertices_.total = vertices_.count;
-    second.texcoords_.total = texcoords_.count;
-    second.normals_.total = normals_.count;
+    ObjReader second(as_bytes(text_), no_file, limits_, run_bytes_);
+    second.geometry_.vertices.total = geometry_.vertices.count;
+    second.geometry_.texcoords.total = geometry_.texcoords.count;
+    second.geometry_.normals.total = geometry_.normals.count;
     second.read_statements();
     error_ = std::move(second.error_);
     return false;
@@ -489,30 +387,33 @@ class ObjReader {
   bool build() {
     count_unused_tuples();
     // Wedges are numbered in 32 bits.
-    if (const std::uint64_t most = corner_vertex_.size() + vertices_.count; most > kMaxCount)
+    if (const std::uint64_t most = geometry_.corner_vertex.size() + geometry_.vertices.count;
+        most > kMaxCount)
       return refuse_at(ErrorCode::over_limit,
                        over_limit_message(most, "corners and vertices", kMaxCount), 0);
-    WedgeTable wedges = obj::build_wedges({.vertex_count = static_cast<Index>(vertices_.count),
-                                           .corner_vertex = corner_vertex_,
-                                           .corner_texcoord = corner_texcoord_,
-                                           .corner_normal = corner_normal_,
-                                           .texcoord = texcoord_,
-                                           .texcoord_flags = texcoord_flags_,
-                                           .normal = normal_});
-    if (wedges.vertex.size() > most_tuples())
-      return refuse_at(ErrorCode::over_limit,
-                       over_limit_message(wedges.vertex.size(), "wedges", most_tuples()), 0);
+    WedgeTable wedges =
+        obj::build_wedges({.vertex_count = static_cast<Index>(geometry_.vertices.count),
+                           .corner_vertex = geometry_.corner_vertex,
+                           .corner_texcoord = geometry_.corner_texcoord,
+                           .corner_normal = geometry_.corner_normal,
+                           .texcoord = geometry_.texcoord,
+                           .texcoord_flags = geometry_.texcoord_flags,
+                           .normal = geometry_.normal});
+    if (wedges.vertex.size() > obj::most_tuples(limits_))
+      return refuse_at(
+          ErrorCode::over_limit,
+          over_limit_message(wedges.vertex.size(), "wedges", obj::most_tuples(limits_)), 0);
     wedges_ = std::move(wedges);
-    if (corner_vertex_.empty()) take_cloud_attributes();
+    if (geometry_.corner_vertex.empty()) take_cloud_attributes();
 
     Mesh& mesh = model_.meshes.emplace_back();
-    mesh.position =
-        attribute("POSITION", values_.position_fits, 3, vertices_.count,
-                  [&](std::size_t v, std::size_t c) { return values_.position[3 * v + c]; });
+    mesh.position = attribute(
+        "POSITION", geometry_.values.position_fits, 3, geometry_.vertices.count,
+        [&](std::size_t v, std::size_t c) { return geometry_.values.position[3 * v + c]; });
     add_wedge_attributes(mesh);
     mesh.wedge_vertex = std::move(wedges_.vertex);
     mesh.corners = std::move(wedges_.corners);
-    mesh.face_first = std::move(face_first_);
+    mesh.face_first = std::move(geometry_.face_first);
     mesh.face_group = std::move(face_group_);
     if (has_smoothing_ && mesh.face_count() > 0) {
       const ByteView data = std::as_bytes(std::span(face_smoothing_));
@@ -529,19 +430,20 @@ class ObjReader {
   /// Point clouds come with as many normals or texture coordinates as vertices and nothing that
   /// would tie them together.
   void take_cloud_attributes() {
-    if (normals_.count == vertices_.count)
+    if (geometry_.normals.count == geometry_.vertices.count)
       std::iota(wedges_.normal.begin(), wedges_.normal.end(), 0u);
-    if (texcoords_.count == vertices_.count)
+    if (geometry_.texcoords.count == geometry_.vertices.count)
       std::iota(wedges_.texcoord.begin(), wedges_.texcoord.end(), 0u);
   }
 
   void count_unused_tuples() {
-    note_unused("vt", texcoords_.count, corner_texcoord_);
-    note_unused("vn", normals_.count, corner_normal_);
+    note_unused("vt", geometry_.texcoords.count, geometry_.corner_texcoord);
+    note_unused("vn", geometry_.normals.count, geometry_.corner_normal);
   }
 
   void note_unused(std::string_view kind, std::uint64_t count, const std::vector<Index>& used) {
-    if (count == 0 || (corner_vertex_.empty() && count == vertices_.count)) return;
+    if (count == 0 || (geometry_.corner_vertex.empty() && count == geometry_.vertices.count))
+      return;
     std::vector<bool> is_used(count);
     for (const Index i : used)
       if (i != kNone) is_used[i] = true;
@@ -551,8 +453,9 @@ class ObjReader {
 
   /// Which of ObjPresent wedge w has, by the lines it was made of.
   std::uint8_t present(std::size_t w) const {
-    std::uint8_t flags = values_.flags.empty() ? 0 : values_.flags[wedges_.vertex[w]];
-    if (wedges_.texcoord[w] != kNone) flags |= texcoord_flags_[wedges_.texcoord[w]];
+    std::uint8_t flags =
+        geometry_.values.flags.empty() ? 0 : geometry_.values.flags[wedges_.vertex[w]];
+    if (wedges_.texcoord[w] != kNone) flags |= geometry_.texcoord_flags[wedges_.texcoord[w]];
     if (wedges_.normal[w] != kNone) flags |= kHasNormal;
     return flags;
   }
@@ -580,8 +483,8 @@ class ObjReader {
 
   void add_wedge_attributes(Mesh& mesh) {
     const std::size_t n = wedges_.vertex.size();
-    const bool plain = values_.flags.empty() && corner_texcoord_.empty() &&
-                       corner_normal_.empty() && !corner_vertex_.empty();
+    const bool plain = geometry_.values.flags.empty() && geometry_.corner_texcoord.empty() &&
+                       geometry_.corner_normal.empty() && !geometry_.corner_vertex.empty();
     if (plain) return;
     std::vector<std::uint8_t> flags(n);
     std::uint8_t any = 0;
@@ -589,36 +492,38 @@ class ObjReader {
     for (std::size_t w = 0; w < n; ++w) {
       any |= flags[w] = present(w);
       if (const Index vt = wedges_.texcoord[w]; vt != kNone) {
-        uv_fit &= (texcoord_fits_[vt] & kUvFit) != 0;
-        w_fit &= (texcoord_fits_[vt] & kTexWFits) != 0;
+        uv_fit &= (geometry_.texcoord_fits[vt] & obj::kUvFit) != 0;
+        w_fit &= (geometry_.texcoord_fits[vt] & obj::kTexWFits) != 0;
       }
-      if (const Index vn = wedges_.normal[w]; vn != kNone) normal_fit &= normal_fits_[vn] != 0;
+      if (const Index vn = wedges_.normal[w]; vn != kNone)
+        normal_fit &= geometry_.normal_fits[vn] != 0;
     }
     std::vector<Attribute>& out = mesh.wedge_attributes;
     const auto value_of = [](const std::vector<double>& values, std::size_t width, Index i,
                              std::size_t c) { return i == kNone ? 0.0 : values[width * i + c]; };
     if (any & kHasNormal)
       out.push_back(attribute("NORMAL", normal_fit, 3, n, [&](std::size_t w, std::size_t c) {
-        return value_of(normal_, 3, wedges_.normal[w], c);
+        return value_of(geometry_.normal, 3, wedges_.normal[w], c);
       }));
     if (any & kHasTexcoord)
       out.push_back(attribute("TEXCOORD_0", uv_fit, 2, n, [&](std::size_t w, std::size_t c) {
-        return value_of(texcoord_, 3, wedges_.texcoord[w], c);
+        return value_of(geometry_.texcoord, 3, wedges_.texcoord[w], c);
       }));
-    values_.color.resize(any & kHasColor ? 4 * vertices_.count : 0);
+    geometry_.values.color.resize(any & kHasColor ? 4 * geometry_.vertices.count : 0);
     if (any & kHasColor)
-      out.push_back(attribute("COLOR_0", values_.color_fits, any & kHasAlpha ? 4 : 3, n,
-                              [&](std::size_t w, std::size_t c) {
-                                return values_.color[std::size_t{4} * wedges_.vertex[w] + c];
-                              }));
-    values_.weight.resize(any & kHasWeight ? vertices_.count : 0);
-    if (any & kHasWeight)
       out.push_back(
-          attribute(kObjWeight, values_.weight_fits, 1, n,
-                    [&](std::size_t w, std::size_t) { return values_.weight[wedges_.vertex[w]]; }));
+          attribute("COLOR_0", geometry_.values.color_fits, any & kHasAlpha ? 4 : 3, n,
+                    [&](std::size_t w, std::size_t c) {
+                      return geometry_.values.color[std::size_t{4} * wedges_.vertex[w] + c];
+                    }));
+    geometry_.values.weight.resize(any & kHasWeight ? geometry_.vertices.count : 0);
+    if (any & kHasWeight)
+      out.push_back(attribute(
+          kObjWeight, geometry_.values.weight_fits, 1, n,
+          [&](std::size_t w, std::size_t) { return geometry_.values.weight[wedges_.vertex[w]]; }));
     if (any & kHasTexW)
       out.push_back(attribute(kObjTexW, w_fit, 1, n, [&](std::size_t w, std::size_t) {
-        return value_of(texcoord_, 3, wedges_.texcoord[w], 2);
+        return value_of(geometry_.texcoord, 3, wedges_.texcoord[w], 2);
       }));
     add_presence(mesh, std::move(flags), any);
   }
@@ -629,7 +534,8 @@ class ObjReader {
     if (any & kHasTexcoord) any |= kHasTexV;
     constexpr std::uint8_t kOfVertex = kHasColor | kHasAlpha | kHasWeight;
     const auto misses = [&](std::size_t w) {
-      const std::uint8_t mask = wedges_.has_corner(w) || corner_vertex_.empty() ? 0xff : kOfVertex;
+      const std::uint8_t mask =
+          wedges_.has_corner(w) || geometry_.corner_vertex.empty() ? 0xff : kOfVertex;
       return (flags[w] & mask) != (any & mask);
     };
     bool mixed = false;
@@ -692,12 +598,11 @@ class ObjReader {
     add("obj/notes", notes_);
   }
 
-  // What the arrays take for one of each, with the mesh that is made of them.
-  static constexpr std::uint64_t kVertexBytes = 96, kTupleBytes = 32, kCornerBytes = 36,
-                                 kNameBytes = 160;
+  static constexpr std::uint64_t kNameBytes = 160;
   // All group names together may be so many times the file's size, and a little more.
   static constexpr std::uint64_t kNameGrowth = 16, kShortNames = 1u << 16;
-  void charge(std::uint64_t bytes) { charged_ += bytes; }
+  void charge(std::uint64_t bytes) { charged_for_names_ += bytes; }
+  std::uint64_t charged() const { return geometry_.bytes() + charged_for_names_; }
 
   using GroupKey = std::tuple<Index, Index, Index, FaceKind>;  ///< object, group, material, kind
   static constexpr Index kEmptyName = 0;
@@ -706,12 +611,14 @@ class ObjReader {
   const ReadFile& read_file_;
   const Limits& limits_;
   std::optional<Error> error_;
-  std::uint64_t charged_ = 0;
+  std::uint64_t charged_for_names_ = 0;
+  const std::size_t run_bytes_;
+  char line_end_ = '\n';
 
   // The current line.
-  const char *begin_ = nullptr, *p_ = nullptr, *end_ = nullptr;
+  obj::Cursor cursor_;
+  const char* begin_ = nullptr;
   std::size_t line_at_ = 0;  ///< offset of begin_
-  bool at_last_ = false;     ///< no line end follows
   std::string joined_;
 
   bool header_ended_ = false, statements_ = false;
@@ -720,12 +627,8 @@ class ObjReader {
   std::set<std::string> missing_names_;
   std::map<std::string, bool> companions_;  ///< by path; whether it could be read
 
-  Referenced vertices_, texcoords_, normals_;
-  VertexValues values_;
-  std::vector<double> texcoord_, normal_;  ///< three a line
-  std::vector<std::uint8_t> texcoord_flags_, texcoord_fits_, normal_fits_;
-  std::vector<Index> corner_vertex_, corner_texcoord_, corner_normal_;
-  std::vector<Index> face_first_{0}, face_group_;
+  obj::Geometry geometry_;
+  std::vector<Index> face_group_;
   std::vector<std::uint32_t> face_smoothing_;
   std::uint32_t smoothing_ = 0;
   bool has_smoothing_ = false;
@@ -745,8 +648,13 @@ class ObjReader {
 
 }  // namespace
 
+Result<Model> obj::read_obj_in_runs(ByteView file, const ReadFile& read_file, const Limits& limits,
+                                    std::size_t run_bytes) {
+  return ObjReader(file, read_file, limits, run_bytes).read();
+}
+
 Result<Model> read_obj(ByteView file, const ReadFile& read_file, const Limits& limits) {
-  return ObjReader(file, read_file, limits).read();
+  return obj::read_obj_in_runs(file, read_file, limits, obj::kRunBytes);
 }
 
 }  // namespace pstrip
