@@ -33,7 +33,7 @@ double attribute_weight(std::string_view semantic, const EncodeOptions& options)
     for (const AttributeWeight& w : options.attribute_weights)
       if (w.semantic == name) return w.weight;
   if (semantic == "NORMAL") return 0.005;
-  if (semantic.starts_with("TEXCOORD_")) return 0.3;
+  if (semantic.starts_with("TEXCOORD_")) return 0.2;
   if (semantic.starts_with("COLOR_")) return 0.1;
   return 0;
 }

@@ -17,7 +17,7 @@ import zlib
 from levels import ordered, run
 
 PEERS = ("meshopt", "meshopt-welded")
-OURS = ("ours", "ours-memoryless", "ours-optimal", "ours-optimal-memoryless")
+OURS = ("ours", "ours-qem", "ours-optimal", "ours-optimal-qem")
 # column, its head, how a value is shown
 SHOWN = (
     ("silhouette", "outline %", lambda x: f"{100 * x:.2f}"),

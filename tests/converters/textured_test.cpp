@@ -174,19 +174,20 @@ TEST(TexturedLevels, OfRealModelsDoNotCrackEither) {
 
 TEST(TexturedLevels, KeepSeamsWhereTheyAre) {
   // Without moving vertices, a place has at any level the looks it has in the end, unless a wedge
-  // was carried to it; that is dear and stays rare.
+  // was carried to it: that is dear, and happens where a chart has hardly two triangles.
   for (const Seamed& seamed : generated()) {
     SCOPED_TRACE(seamed.name);
     const auto all = looks(seamed.mesh);
     const std::set<Look> known(all.begin(), all.end());
     const std::set<Place> seams = seam_places(seamed.mesh);
-    for_each_level(encoded(seamed.mesh, kManners[0]), [&](const Mesh& level) {
+    for_each_level(encoded(seamed.mesh, kManners[1]), [&](const Mesh& level) {
       const auto shown = looks(level);
       const auto strange =
           std::ranges::count_if(shown, [&](const Look& look) { return !known.contains(look); });
       const auto off_seam = std::ranges::count_if(
           seam_places(level), [&](const Place& place) { return !seams.contains(place); });
-      EXPECT_LE(strange, static_cast<std::ptrdiff_t>(shown.size() / 8));
+      EXPECT_LE(strange,
+                shown.size() < 3 * 200 ? static_cast<std::ptrdiff_t>(shown.size() / 4) : 0);
       EXPECT_EQ(off_seam, 0);
     });
   }
