@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.h"
 
 namespace pstrip {
 namespace {
@@ -38,81 +42,73 @@ class Sets {
   std::vector<Index> parent_;
 };
 
-// Items in buckets, those of a bucket one after the other.
-template <class Item>
-class Buckets {
- public:
-  /// Calls `each` twice with a function that takes a bucket's number and an item: to count and to
-  /// fill.
-  template <class Each>
-  Buckets(std::size_t buckets, Each&& each) : end_(buckets + 1, 0) {
-    each([&](Index bucket, const Item&) { ++end_[bucket + 1]; });
-    std::partial_sum(end_.begin(), end_.end(), end_.begin());
-    items_.resize(end_.back());
-    // While they fill, end_[b] is where the next item goes; afterwards it is the bucket's end.
-    each([&](Index bucket, const Item& item) { items_[end_[bucket]++] = item; });
-  }
-  std::span<Item> operator[](std::size_t bucket) {
-    const std::uint64_t first = bucket == 0 ? 0 : end_[bucket - 1];
-    return std::span(items_).subspan(first, end_[bucket] - first);
-  }
-
- private:
-  std::vector<std::uint64_t> end_;
-  std::vector<Item> items_;
-};
+// The finalizer of splitmix64 [Steele14]: sums of such numbers hardly ever agree by chance.
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
 
 class Surveyor {
  public:
-  explicit Surveyor(const Mesh& mesh) : mesh_(mesh), vertex_(mesh.corners.size()) {
-    for (std::size_t c = 0; c < vertex_.size(); ++c) vertex_[c] = mesh.vertex_of(mesh.corners[c]);
-  }
+  explicit Surveyor(const Mesh& mesh) : mesh_(mesh) {}
 
-  Survey run() {
-    look_at_vertices();
+  Survey run(unsigned threads) {
     look_at_faces();
-    look_at_edges();
-    look_for_duplicates();
+    list_corners();
+    constexpr std::size_t kGrain = 1 << 14;
+    std::vector<Survey> parts((mesh_.vertex_count() + kGrain - 1) / kGrain);
+    parallel_for(threads, mesh_.vertex_count(), kGrain, [&](std::size_t begin, std::size_t end) {
+      VertexSurveyor vertices(*this);
+      for (std::size_t v = begin; v < end; ++v) vertices.look_at(static_cast<Index>(v));
+      parts[begin / kGrain] = vertices.found;
+    });
+    for (const Survey& part : parts) out_ += part;
     return out_;
   }
 
  private:
+  Index vertex_at(Index corner) const { return mesh_.vertex_of(mesh_.corners[corner]); }
+  Index first_corner(Index face) const {
+    return static_cast<Index>(mesh_.face(face).data() - mesh_.corners.data());
+  }
+  Index face_of(Index corner) const {
+    return corner_face_.empty() ? corner / 3 : corner_face_[corner];
+  }
   bool is_polygon(Index face) const {
     return mesh_.groups[mesh_.group_of(face)].kind == FaceKind::polygons &&
            mesh_.face(face).size() >= 3;
   }
-  Index first_corner(Index face) const {
-    return static_cast<Index>(mesh_.face(face).data() - mesh_.corners.data());
+  std::span<const Index> polygons_at(Index vertex) const {
+    return std::span(listed_).subspan(list_end_[vertex], list_end_[vertex + 1] - list_end_[vertex]);
   }
 
-  void look_at_vertices() {
-    const Attribute& position = mesh_.position;
-    const std::size_t axes = std::min<std::size_t>(position.count, 3);
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      bool finite = true;
-      for (std::size_t axis = 0; axis < axes; ++axis)
-        finite &= std::isfinite(component(position, v, axis));
-      if (!finite) ++out_.non_finite_vertices;
+  bool names_a_vertex_twice(Index face) {
+    const Index first = first_corner(face), n = static_cast<Index>(mesh_.face(face).size());
+    if (n == 3) {
+      const Index a = vertex_at(first), b = vertex_at(first + 1), c = vertex_at(first + 2);
+      return a == b || b == c || a == c;
     }
+    sorted_.clear();
+    for (Index c = first; c < first + n; ++c) sorted_.push_back(vertex_at(c));
+    std::ranges::sort(sorted_);
+    return std::ranges::adjacent_find(sorted_) != sorted_.end();
   }
 
   void look_at_faces() {
     Sets connected(mesh_.vertex_count());
     std::vector<bool> is_used(mesh_.vertex_count());
     is_degenerate_.resize(mesh_.face_count());
-    std::vector<Index> sorted;
     for (Index f = 0; f < mesh_.face_count(); ++f) {
-      const auto loop = std::span(vertex_).subspan(first_corner(f), mesh_.face(f).size());
-      for (const Index v : loop) {
-        connected.join(loop[0], v);
-        is_used[v] = true;
+      const Index first = first_corner(f), n = static_cast<Index>(mesh_.face(f).size());
+      for (Index c = first; c < first + n; ++c) {
+        connected.join(vertex_at(first), vertex_at(c));
+        is_used[vertex_at(c)] = true;
       }
-      if (!is_polygon(f) || loop.size() != 3) ++out_.other_faces;
-      if (!is_polygon(f)) continue;
-      sorted.assign(loop.begin(), loop.end());
-      std::ranges::sort(sorted);
-      is_degenerate_[f] = std::ranges::adjacent_find(sorted) != sorted.end();
-      if (is_degenerate_[f]) ++out_.degenerate_faces;
+      if (!is_polygon(f) || n != 3) ++out_.other_faces;
+      if (!is_polygon(f) || !names_a_vertex_twice(f)) continue;
+      is_degenerate_[f] = true;
+      ++out_.degenerate_faces;
     }
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       if (!is_used[v]) ++out_.isolated_vertices;
@@ -120,75 +116,156 @@ class Surveyor {
     }
   }
 
-  struct Side {       // of a polygon, in the bucket of the lower vertex
-    Index other;      // the higher vertex
-    Index low, high;  // the polygon's corners at both
+  // Of every vertex the corners of polygons; of a degenerate polygon one corner alone.
+  void list_corners() {
+    if (!mesh_.face_first.empty()) {
+      corner_face_.resize(mesh_.corners.size());
+      for (Index f = 0; f < mesh_.face_count(); ++f)
+        std::fill_n(corner_face_.begin() + first_corner(f), mesh_.face(f).size(), f);
+    }
+    is_lowest_.resize(mesh_.corners.size());
+    list_end_.assign(std::size_t{mesh_.vertex_count()} + 2, 0);
+    for_each_listed([&](Index corner) { ++list_end_[vertex_at(corner) + 2]; });
+    std::partial_sum(list_end_.begin(), list_end_.end(), list_end_.begin());
+    listed_.resize(list_end_.back());
+    // While they fill, list_end_[v + 1] is where the next of v goes; afterwards it is v's end.
+    for_each_listed([&](Index corner) { listed_[list_end_[vertex_at(corner) + 1]++] = corner; });
+  }
+
+  template <class Take>
+  void for_each_listed(Take&& take) {
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      if (!is_polygon(f)) continue;
+      const Index first = first_corner(f), n = static_cast<Index>(mesh_.face(f).size());
+      Index lowest = first;
+      for (Index c = first + 1; c < first + n; ++c)
+        if (vertex_at(c) < vertex_at(lowest)) lowest = c;
+      is_lowest_[lowest] = true;
+      if (is_degenerate_[f]) {
+        take(lowest);
+        continue;
+      }
+      for (Index c = first; c < first + n; ++c) take(c);
+    }
+  }
+
+  // Looks at one vertex at a time, and what is around it.
+  class VertexSurveyor {
+   public:
+    explicit VertexSurveyor(const Surveyor& all) : all_(all), mesh_(all.mesh_) {}
+
+    void look_at(Index vertex) {
+      const std::size_t axes = std::min<std::size_t>(mesh_.position.count, 3);
+      bool finite = true;
+      for (std::size_t axis = 0; axis < axes; ++axis)
+        finite &= std::isfinite(component(mesh_.position, vertex, axis));
+      if (!finite) ++found.non_finite_vertices;
+      look_at_fans(vertex);
+      look_for_duplicates(vertex);
+    }
+
+    Survey found;
+
+   private:
+    // The vertices before and after this one in each polygon around it: fans are what these pairs
+    // join.
+    void look_at_fans(Index vertex) {
+      sides_.clear();
+      for (const Index corner : all_.polygons_at(vertex)) {
+        const Index face = all_.face_of(corner);
+        if (all_.is_degenerate_[face]) continue;
+        const Index first = all_.first_corner(face),
+                    last = first + static_cast<Index>(mesh_.face(face).size()) - 1;
+        sides_.push_back(all_.vertex_at(corner == first ? last : corner - 1));
+        sides_.push_back(all_.vertex_at(corner == last ? first : corner + 1));
+      }
+      number_neighbours();
+      std::size_t fans = neighbours_.size();
+      parent_.resize(neighbours_.size());
+      std::iota(parent_.begin(), parent_.end(), Index{0});
+      degree_.assign(neighbours_.size(), 0);
+      for (std::size_t i = 0; i < sides_.size(); i += 2) {
+        ++degree_[sides_[i]];
+        ++degree_[sides_[i + 1]];
+        const Index a = root(sides_[i]), b = root(sides_[i + 1]);
+        if (a == b) continue;
+        parent_[a] = b;
+        --fans;
+      }
+      if (fans > 1) ++found.non_manifold_vertices;
+      for (std::size_t n = 0; n < neighbours_.size(); ++n)
+        if (degree_[n] > 2 && vertex < neighbours_[n]) ++found.non_manifold_edges;
+    }
+
+    // Replaces the vertices in sides_ by their places in neighbours_.
+    void number_neighbours() {
+      neighbours_.clear();
+      constexpr std::size_t kFew = 64;
+      if (sides_.size() > kFew) {
+        neighbours_ = sides_;
+        std::ranges::sort(neighbours_);
+        neighbours_.erase(std::ranges::unique(neighbours_).begin(), neighbours_.end());
+        for (Index& side : sides_)
+          side =
+              static_cast<Index>(std::ranges::lower_bound(neighbours_, side) - neighbours_.begin());
+        return;
+      }
+      for (Index& side : sides_) {
+        const auto at = std::ranges::find(neighbours_, side);
+        const auto place = static_cast<Index>(at - neighbours_.begin());
+        if (at == neighbours_.end()) neighbours_.push_back(side);
+        side = place;
+      }
+    }
+
+    Index root(Index i) {
+      while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+      return i;
+    }
+
+    // Among the polygons whose lowest vertex this is.
+    void look_for_duplicates(Index vertex) {
+      sums_.clear();
+      for (const Index corner : all_.polygons_at(vertex)) {
+        if (!all_.is_lowest_[corner]) continue;
+        const Index face = all_.face_of(corner);
+        std::uint64_t sum = 0;
+        for (const Index wedge : mesh_.face(face)) sum += mixed(mesh_.vertex_of(wedge));
+        sums_.push_back({sum, face});
+      }
+      if (sums_.size() < 2) return;
+      std::ranges::sort(sums_);
+      for (std::size_t i = 0, end = 0; i < sums_.size(); i = end) {
+        for (end = i + 1; end < sums_.size() && sums_[end].first == sums_[i].first;) ++end;
+        if (end - i > 1) compare(std::span(sums_).subspan(i, end - i));
+      }
+    }
+
+    void compare(std::span<const std::pair<std::uint64_t, Index>> faces) {
+      std::vector<std::vector<Index>> loops;
+      for (const auto& [sum, face] : faces) {
+        std::vector<Index>& loop = loops.emplace_back();
+        for (const Index wedge : mesh_.face(face)) loop.push_back(mesh_.vertex_of(wedge));
+        std::ranges::sort(loop);
+      }
+      std::ranges::sort(loops);
+      for (std::size_t i = 1; i < loops.size(); ++i)
+        if (loops[i - 1] == loops[i]) ++found.duplicate_faces;
+    }
+
+    const Surveyor& all_;
+    const Mesh& mesh_;
+    std::vector<Index> sides_, neighbours_, parent_, degree_;
+    std::vector<std::pair<std::uint64_t, Index>> sums_;  // of the vertices of a face
   };
 
-  void look_at_edges() {
-    const auto for_each_side = [&](auto&& take) {
-      for (Index f = 0; f < mesh_.face_count(); ++f) {
-        if (!is_polygon(f) || is_degenerate_[f]) continue;
-        const Index first = first_corner(f), n = static_cast<Index>(mesh_.face(f).size());
-        for (Index k = 0; k < n; ++k) {
-          Index a = first + k, b = first + (k + 1 == n ? 0 : k + 1);
-          if (vertex_[a] > vertex_[b]) std::swap(a, b);
-          take(vertex_[a], Side{vertex_[b], a, b});
-        }
-      }
-    };
-    Buckets<Side> sides(mesh_.vertex_count(), for_each_side);
-    Sets fans(vertex_.size());  // of corners
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      const std::span<Side> at = sides[v];
-      std::ranges::sort(at, {}, &Side::other);
-      for (std::size_t i = 0, end = 0; i < at.size(); i = end) {
-        for (end = i; end < at.size() && at[end].other == at[i].other; ++end) {
-          fans.join(at[i].low, at[end].low);
-          fans.join(at[i].high, at[end].high);
-        }
-        if (end - i > 2) ++out_.non_manifold_edges;
-      }
-    }
-    count_fans(fans);
-  }
-
-  void count_fans(Sets& fans) {
-    std::vector<std::uint8_t> count(mesh_.vertex_count(), 0);
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
-      if (!is_polygon(f) || is_degenerate_[f]) continue;
-      const Index first = first_corner(f);
-      for (std::size_t c = first; c < first + mesh_.face(f).size(); ++c) {
-        std::uint8_t& fans_here = count[vertex_[c]];
-        if (fans.find(static_cast<Index>(c)) != c || fans_here == 2) continue;
-        if (++fans_here == 2) ++out_.non_manifold_vertices;
-      }
-    }
-  }
-
-  // Uses up vertex_.
-  void look_for_duplicates() {
-    const auto loop_of = [&](Index f) {
-      return std::span(vertex_).subspan(first_corner(f), mesh_.face(f).size());
-    };
-    for (Index f = 0; f < mesh_.face_count(); ++f) std::ranges::sort(loop_of(f));
-    Buckets<Index> faces(mesh_.vertex_count(), [&](auto&& take) {
-      for (Index f = 0; f < mesh_.face_count(); ++f)
-        if (is_polygon(f)) take(loop_of(f)[0], f);
-    });
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      const std::span<Index> at = faces[v];
-      std::ranges::sort(at, [&](Index a, Index b) {
-        return std::ranges::lexicographical_compare(loop_of(a), loop_of(b));
-      });
-      for (std::size_t i = 1; i < at.size(); ++i)
-        if (std::ranges::equal(loop_of(at[i - 1]), loop_of(at[i]))) ++out_.duplicate_faces;
-    }
-  }
-
   const Mesh& mesh_;
-  std::vector<Index> vertex_;  // of each corner
-  std::vector<bool> is_degenerate_;
+  std::vector<bool> is_degenerate_;  // faces
+  std::vector<bool> is_lowest_;      // corners: of the polygon's, the first at its lowest vertex
+  std::vector<Index> corner_face_;   // empty: triangles
+  std::vector<Index> list_end_;
+  std::vector<Index> listed_;
+  std::vector<Index> sorted_;
   Survey out_;
 };
 
@@ -201,6 +278,6 @@ Survey& Survey::operator+=(const Survey& other) {
 
 std::span<const SurveyKind> survey_kinds() { return kKinds; }
 
-Survey survey(const Mesh& mesh) { return Surveyor(mesh).run(); }
+Survey survey(const Mesh& mesh, unsigned threads) { return Surveyor(mesh).run(threads); }
 
 }  // namespace pstrip

@@ -36,7 +36,8 @@ std::span<const SurveyKind> survey_kinds();
 
 /// Counts them.
 ///
-/// cost  O(n log d) for n corners and d of them at a vertex, about 60 bytes a triangle at work
-Survey survey(const Mesh& mesh);
+/// threads  see thread_count(); the counts do not depend on it
+/// cost     O(n log d) for n corners and d of them at a vertex, about 20 bytes a triangle at work
+Survey survey(const Mesh& mesh, unsigned threads = 1);
 
 }  // namespace pstrip

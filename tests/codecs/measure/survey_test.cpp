@@ -131,5 +131,11 @@ TEST(Survey, TakesAVertexOfAHundredThousandFaces) {
   EXPECT_EQ(survey(mesh_of(kFaces + 1, corners)), Survey{.components = 1});
 }
 
+TEST(Survey, CountsTheSameOnSeveralThreads) {
+  const Mesh mesh = test::random_soup(1, 40'000, 300'000);
+  EXPECT_GT(survey(mesh).non_manifold_vertices, 30'000u);
+  EXPECT_EQ(survey(mesh, 3), survey(mesh));
+}
+
 }  // namespace
 }  // namespace pstrip
