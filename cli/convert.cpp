@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/option_groups.h"
 #include "cli/output.h"
+#include "core/parallel.h"
 
 namespace pstrip::cli {
 namespace {
@@ -63,11 +64,10 @@ void report_simplification(const Streams& io, const std::vector<SimplifyReport>&
 }
 
 // What is unusual about the model.
-void report_survey(const Streams& io, const Options& options, const Model& model) {
-  if (io.quiet || options.output == "-") return;
+Survey survey_of(const Model& model) {
   Survey all;
   for (const Mesh& mesh : model.meshes) all += survey(mesh);
-  print_survey(io.err, all, true);
+  return all;
 }
 
 // Strips to strips keeps the records; anything else goes through the mesh.
@@ -108,8 +108,17 @@ ExitCode run(const Options& options, const Streams& io) {
       keep_attributes(model, options.attributes == "none" ? std::vector<std::string>()
                                                           : split_list(options.attributes));
     if (is_progressive(*target)) {
-      report_survey(io, options, model);
-      auto strips = encode(model, *encode_options, bar.callback(), &simplified);
+      const bool tells = !io.quiet && options.output != "-";
+      Survey met;
+      Result<ProgressiveStrips> strips;
+      parallel_invoke(
+          encode_options->threads,
+          [&] {
+            if (tells) met = survey_of(model);
+          },
+          [&] { strips = encode(model, *encode_options, bar.callback(), &simplified); });
+      bar.clear();
+      if (tells) print_survey(io.err, met, true);
       if (!strips) return complain(io, strips.error(), options.input);
       options.encode.stripping.note_time_limit(io);
       saved = save(*strips, options.output, *target);

@@ -170,8 +170,9 @@ std::string byte_size(std::uint64_t bytes) {
   return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.3g} {}", value, kUnits[unit]);
 }
 
-ProgressBar::~ProgressBar() {
+void ProgressBar::clear() {
   if (shown_) io_.err << "\r\033[K" << std::flush;
+  shown_ = false;
 }
 
 Progress ProgressBar::callback() {

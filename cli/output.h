@@ -53,14 +53,15 @@ std::string figure(double value);
 std::string byte_size(std::uint64_t bytes);
 
 /// A progress bar on a terminal, nothing elsewhere; stops the work after an interrupt (Ctrl-C).
-/// The bar is cleared when the object ends.
+/// The bar is cleared when the object ends, or before that to make room for other text.
 class ProgressBar {
  public:
   explicit ProgressBar(const Streams& io) : io_(io) {}
-  ~ProgressBar();
+  ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
   Progress callback();
+  void clear();
 
  private:
   const Streams& io_;
