@@ -151,15 +151,16 @@ Result<SavedFiles> save_ply(const Model& model, const std::string& path,
   auto bytes = write_ply(several ? one : model,
                          {.format = options.ascii ? PlyWriteOptions::Format::ascii
                                                   : PlyWriteOptions::Format::little_endian,
-                         .threads = options.threads});
+                          .threads = options.threads});
   if (!bytes) return tl::unexpected(bytes.error());
   std::vector<Pending> files;
   files.push_back({path, std::move(bytes).value()});
   return write(std::move(files), std::move(notes));
 }
 
-Result<SavedFiles> save_obj(const Model& model, const std::string& path) {
-  auto written = write_obj(model, path == "-" ? std::string() : companion_stem(path) + ".mtl");
+Result<SavedFiles> save_obj(const Model& model, const std::string& path, unsigned threads) {
+  auto written =
+      write_obj(model, path == "-" ? std::string() : companion_stem(path) + ".mtl", threads);
   if (!written) return tl::unexpected(written.error());
   std::vector<Pending> files;
   files.push_back({path, std::move(written->obj)});
@@ -261,7 +262,7 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
     case FileFormat::ply:
       return save_ply(model, path, options);
     case FileFormat::obj:
-      return save_obj(model, path);
+      return save_obj(model, path, options.threads);
     case FileFormat::gltf:
     case FileFormat::glb:
       return save_gltf(model, path, format, options);

@@ -74,8 +74,9 @@ struct ObjFiles {
 ///
 /// model     its meshes are consistent (find_inconsistency), its indices name what is there
 /// mtl_name  for `mtllib`; relative, see ReadFile; may be empty: then no .mtl is made
+/// threads   to work with, see thread_count(); the bytes are the same
 /// errors    bad_argument for an mtl_name that a reader would refuse
-Result<ObjFiles> write_obj(const Model& model, std::string mtl_name);
+Result<ObjFiles> write_obj(const Model& model, std::string mtl_name, unsigned threads = 0);
 
 /// One name for an object and its group names: "group" without an object, else "object/" or
 /// "object/group"; '%' and '/' within an object are written "%25" and "%2F".

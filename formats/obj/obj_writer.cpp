@@ -5,6 +5,7 @@
 #include <cstring>
 #include <set>
 
+#include "core/parallel.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/names.h"
 #include "formats/obj/numbers.h"
@@ -41,10 +42,31 @@ constexpr std::uint64_t hash_of(ByteView bytes) {  // FNV-1a; collisions cost ti
   return hash;
 }
 
+/// Appends lines 0 to count - 1, which line(out, i) makes, some runs of them on each thread.
+template <class Line>
+void append_lines(std::string& out, std::size_t count, unsigned threads, Line&& line) {
+  constexpr std::size_t kLines = 4096, kRunsAtOnce = 32;
+  if (count <= kLines) {
+    for (std::size_t i = 0; i < count; ++i) line(out, i);
+    return;
+  }
+  std::vector<std::string> texts(std::min(kRunsAtOnce, count / kLines + 1));
+  for (std::size_t first = 0; first < count; first += kLines * kRunsAtOnce) {
+    const std::size_t lines = std::min(count - first, kLines * kRunsAtOnce);
+    parallel_for(threads, lines, kLines, [&](std::size_t begin, std::size_t end) {
+      std::string& text = texts[begin / kLines];
+      text.clear();
+      for (std::size_t i = begin; i < end; ++i) line(text, first + i);
+    });
+    for (std::size_t run = 0; run * kLines < lines; ++run) out += texts[run];
+  }
+}
+
 /// Writes the text of a model, one mesh after the other.
 class ObjWriter {
  public:
-  ObjWriter(const Model& model, std::string mtl_name) : model_(model) {
+  ObjWriter(const Model& model, std::string mtl_name, unsigned threads)
+      : model_(model), threads_(threads) {
     files_.mtl_name = std::move(mtl_name);
   }
 
@@ -263,7 +285,9 @@ class ObjWriter {
       write_statement("o", object_);
     }
     const Plan plan = plan_mesh(mesh);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) write_vertex(mesh, plan, v);
+    append_lines(out_, mesh.vertex_count(), threads_, [&](std::string& out, std::size_t v) {
+      append_vertex(out, mesh, plan, static_cast<Index>(v));
+    });
     const TupleLines texcoords =
         write_tuples(mesh, plan, plan.texcoord, kHasTexcoord, texcoord_count_);
     const TupleLines normals = write_tuples(mesh, plan, plan.normal, kHasNormal, normal_count_);
@@ -277,22 +301,22 @@ class ObjWriter {
     end_line();
   }
 
-  void write_vertex(const Mesh& mesh, const Plan& plan, Index v) {
-    out_ += 'v';
+  static void append_vertex(std::string& out, const Mesh& mesh, const Plan& plan, Index v) {
+    out += 'v';
     for (std::size_t c = 0; c < 3; ++c) {
       if (c < mesh.position.count)
-        append_component(out_, mesh.position, v, c);
+        append_component(out, mesh.position, v, c);
       else
-        out_ += " 0";
+        out += " 0";
     }
     const Index w = plan.vertex_wedge[v];
     if (plan.color && has(plan, w, kHasColor)) {
       const bool alpha = plan.color->count == 4 && has(plan, w, kHasAlpha);
-      for (std::size_t c = 0; c < (alpha ? 4u : 3u); ++c) append_component(out_, *plan.color, w, c);
+      for (std::size_t c = 0; c < (alpha ? 4u : 3u); ++c) append_component(out, *plan.color, w, c);
     } else if (plan.weight && has(plan, w, kHasWeight)) {
-      append_component(out_, *plan.weight, w, 0);
+      append_component(out, *plan.weight, w, 0);
     }
-    out_ += '\n';
+    out += '\n';
   }
 
   /// The bytes that tell two `vt` or `vn` lines apart.
@@ -312,7 +336,9 @@ class ObjWriter {
     if (!a) return out;
     out.assign(mesh.wedge_count(), 0);
     if (plan.cloud) {
-      for (Index w = 0; w < mesh.wedge_count(); ++w) write_tuple(plan, *a, w);
+      append_lines(out_, mesh.wedge_count(), threads_, [&](std::string& text, std::size_t w) {
+        append_tuple(text, plan, *a, static_cast<Index>(w));
+      });
       return out;
     }
     std::vector<std::pair<std::uint64_t, Index>> order;  // hash of the tuple, wedge
@@ -331,26 +357,28 @@ class ObjWriter {
           tuple_key(plan, *a, order[i].second) == tuple_key(plan, *a, order[i - 1].second);
       first_of[order[i].second] = same ? first_of[order[i - 1].second] : order[i].second;
     }
+    std::vector<Index> written;
     for (Index w = 0; w < mesh.wedge_count(); ++w) {
       if (first_of[w] == kNone) continue;
-      if (first_of[w] == w) {
-        write_tuple(plan, *a, w);
-        ++count;
-      }
-      out[w] = first_of[w] == w ? count : out[first_of[w]];
+      if (first_of[w] == w) written.push_back(w);
+      out[w] = first_of[w] == w ? count + written.size() : out[first_of[w]];
     }
+    count += written.size();
+    append_lines(out_, written.size(), threads_, [&](std::string& text, std::size_t i) {
+      append_tuple(text, plan, *a, written[i]);
+    });
     return out;
   }
 
-  void write_tuple(const Plan& plan, const Attribute& a, Index w) {
+  static void append_tuple(std::string& out, const Plan& plan, const Attribute& a, Index w) {
     const bool texcoord = &a == plan.texcoord;
-    out_ += texcoord ? "vt" : "vn";
+    out += texcoord ? "vt" : "vn";
     std::size_t components = std::min<std::size_t>(a.count, 3);
     if (texcoord && plan.present && !has(plan, w, kHasTexV)) components = 1;
-    for (std::size_t c = 0; c < components; ++c) append_component(out_, a, w, c);
+    for (std::size_t c = 0; c < components; ++c) append_component(out, a, w, c);
     if (texcoord && plan.texw && components == 2 && has(plan, w, kHasTexW))
-      append_component(out_, *plan.texw, w, 0);
-    out_ += '\n';
+      append_component(out, *plan.texw, w, 0);
+    out += '\n';
   }
 
   // Faces.
@@ -358,9 +386,9 @@ class ObjWriter {
   void write_faces(const Mesh& mesh, const Plan& plan, const std::string& mesh_object,
                    const TupleLines& texcoords, const TupleLines& normals) {
     Index group = kNone;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      const auto corners = mesh.face(f);
-      if (corners.empty()) {
+    for (Index f = 0, next = 0; f < mesh.face_count(); f = next) {
+      next = f + 1;
+      if (mesh.face(f).empty()) {
         drop("faces without a corner");
         continue;
       }
@@ -368,12 +396,25 @@ class ObjWriter {
         group = mesh.group_of(f);
         enter_group(mesh.groups[group], mesh_object);
       }
-      enter_smoothing(plan.smoothing, f);
+      const std::uint32_t smoothing = smoothing_of(plan, f);
+      enter_smoothing(plan.smoothing, smoothing);
+      while (next < mesh.face_count() && mesh.group_of(next) == group && !mesh.face(next).empty() &&
+             smoothing_of(plan, next) == smoothing)
+        ++next;
       const FaceKind kind = mesh.groups[group].kind;
-      out_ += kind == FaceKind::polygons ? 'f' : kind == FaceKind::lines ? 'l' : 'p';
-      for (const Index w : corners) write_corner(mesh, w, texcoords, normals);
-      out_ += '\n';
+      append_lines(out_, next - f, threads_, [&](std::string& out, std::size_t i) {
+        out += kind == FaceKind::polygons ? 'f' : kind == FaceKind::lines ? 'l' : 'p';
+        for (const Index w : mesh.face(f + static_cast<Index>(i)))
+          append_corner(out, mesh, w, texcoords, normals);
+        out += '\n';
+      });
     }
+  }
+
+  static std::uint32_t smoothing_of(const Plan& plan, Index face) {
+    std::uint32_t value = 0;
+    if (plan.smoothing) std::memcpy(&value, plan.smoothing->element(face).data(), sizeof value);
+    return value;
   }
 
   void enter_group(const Group& group, const std::string& mesh_object) {
@@ -393,29 +434,28 @@ class ObjWriter {
   }
 
   /// A mesh that has no smoothing groups only ends that of the one before.
-  void enter_smoothing(const Attribute* smoothing, Index face) {
-    std::uint32_t value = 0;
-    if (smoothing) std::memcpy(&value, smoothing->element(face).data(), sizeof value);
+  void enter_smoothing(const Attribute* smoothing, std::uint32_t value) {
     if (smoothing_ == value || (!smoothing && smoothing_ < 0)) return;
     smoothing_ = value;
     write_statement("s", value == 0 ? "off" : std::to_string(value));
   }
 
-  void write_corner(const Mesh& mesh, Index w, const TupleLines& texcoords,
-                    const TupleLines& normals) {
-    out_ += ' ';
-    append_index(out_, vertex_count_ + mesh.vertex_of(w) + 1);
+  void append_corner(std::string& out, const Mesh& mesh, Index w, const TupleLines& texcoords,
+                     const TupleLines& normals) const {
+    out += ' ';
+    append_index(out, vertex_count_ + mesh.vertex_of(w) + 1);
     const std::uint64_t vt = texcoords.empty() ? 0 : texcoords[w];
     const std::uint64_t vn = normals.empty() ? 0 : normals[w];
     if (vt == 0 && vn == 0) return;
-    out_ += '/';
-    if (vt != 0) append_index(out_, vt);
+    out += '/';
+    if (vt != 0) append_index(out, vt);
     if (vn == 0) return;
-    out_ += '/';
-    append_index(out_, vn);
+    out += '/';
+    append_index(out, vn);
   }
 
   const Model& model_;
+  const unsigned threads_;
   ObjFiles files_;
   std::string out_;
   std::set<std::string> dropped_;
@@ -428,12 +468,12 @@ class ObjWriter {
 
 }  // namespace
 
-Result<ObjFiles> write_obj(const Model& model, std::string mtl_name) {
+Result<ObjFiles> write_obj(const Model& model, std::string mtl_name, unsigned threads) {
   const bool refused =
       !mtl_name.empty() && (!obj::companion_path(mtl_name) || obj::trimmed(mtl_name) != mtl_name);
   if (refused)
     return fail(ErrorCode::bad_argument, "not a name for a companion file", kNoOffset, mtl_name);
-  return ObjWriter(model, std::move(mtl_name)).write();
+  return ObjWriter(model, std::move(mtl_name), threads).write();
 }
 
 }  // namespace pstrip

@@ -27,6 +27,15 @@ std::string text_of(const Model& model) {
   return written ? std::string(as_text(written->obj)) : "error: " + written.error().message;
 }
 
+TEST(WriteObj, MakesTheSameTextWithAnyNumberOfThreads) {
+  Model model;
+  model.meshes.push_back(polygon_soup(5, 20'000, 30'000));  // several runs of lines, three groups
+  model.meshes.push_back(grid(100));
+  const Bytes one = write_obj(model, "", 1).value().obj;
+  EXPECT_EQ(one, write_obj(model, "", 3).value().obj);
+  EXPECT_EQ(read_obj(one, {}).value().meshes.at(0).face_count(), 30'000u + 2 * 99 * 99);
+}
+
 TEST(WriteObj, WritesTheShortestText) {
   const auto model = read_text(
       "o Cube\nv 0.10 0 1e3\nv 0.500001234 2 3\nv 1 1 1 .5 .5 .5\nvt 0 0\nvt 0 0\nvn 0 0 1\n"
