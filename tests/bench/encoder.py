@@ -21,6 +21,7 @@ import time
 import levels
 import plot
 import strip_meshes
+import textured
 from stripifiers import table
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -52,9 +53,6 @@ class Page:
         """What a program of tests/bench, or a script beside this one, prints; empty without it."""
         path = self.programs / program
         command = [path] if not program.endswith(".py") else [sys.executable, "-B", HERE / program]
-        if not program.endswith(".py") and not path.exists():
-            self.add(f"{program} is not built.")
-            return ""
         done = subprocess.run([*map(str, command), *map(str, arguments)], stdout=subprocess.PIPE,
                               text=True, check=False)  # fmt: skip
         if done.returncode != 0:
@@ -207,11 +205,23 @@ def add_scenes(page):
 
 def add_textured(page):
     """Pictures of coarse levels beside the original's."""
-    if (page.programs / "textured_bench").exists():
-        text = page.run("textured.py", page.programs / "textured_bench", page.folder / "textured")
-        page.add(re.sub("^## ", "### ", text, flags=re.MULTILINE))
-    else:
-        page.add("textured_bench is not built.")
+    folder = page.folder / "textured"
+    text = page.run("textured.py", page.programs / "textured_bench", folder)
+    page.add(re.sub("^## ", "### ", text, flags=re.MULTILINE))
+    if not (folder / "textured.csv").exists():
+        return
+    rows = textured.rows_of((folder / "textured.csv").read_text())
+    at = {(r["model"], r["variant"]): r for r in rows if r["share"] == 0.05}
+    for peer in textured.PEERS:
+        pairs = []
+        for model in levels.ordered(r["model"] for r in rows):
+            mine = at.get((model, f"ours@{peer}")) or at.get((model, "ours"))
+            if mine and (model, peer) in at:
+                pairs.append((mine, at[model, peer]))
+        for name, head, _ in textured.SHOWN if pairs else ():
+            mean = textured.geometric_mean([max(mine[name], 1e-6) / max(theirs[name], 1e-6)
+                                            for mine, theirs in pairs])  # fmt: skip
+            page.figure("textured", f"{head} at 5 %: ours / {peer}'s, mean over the models", mean, 1)
 
 
 SECTIONS = {"levels": add_levels, "speed": add_speed, "scaling": add_scaling, "files": add_files,
