@@ -151,7 +151,7 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
                     ->capture_default_str()
                     ->group(kGroup);
   app.add_option("--base-error", base_error,
-                 "Instead: largest distance estimate of the base (model units)")
+                 "Instead: how far base and model may be apart (two-sided, model units)")
       ->check(CLI::NonNegativeNumber)
       ->excludes(share)
       ->group(kGroup);

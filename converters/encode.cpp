@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 #include <queue>
+#include <span>
 #include <utility>
 
 #include "codecs/stripify/stripify.h"
@@ -13,6 +14,7 @@
 #include "codecs/vsplit/faces.h"
 #include "codecs/vsplit/record.h"
 #include "converters/capacity.h"
+#include "converters/level_bounds.h"
 #include "converters/level_cost.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
@@ -128,27 +130,33 @@ class SharedProgress {
   bool stopped_ = false;
 };
 
-Packet packet_at(const Recording& recording, Index mesh, Index first, Index vsplits) {
+// `bounds` are by collapses done. What vsplits bring after the last collapse is undone is not
+// drawn.
+Packet packet_at(const Recording& recording, std::span<const ErrorBounds> bounds, Index mesh,
+                 Index first, Index vsplits) {
   const LevelCounts& level = recording.levels[first + vsplits];
+  const std::size_t collapses = bounds.size() - 1;
+  const ErrorBounds& bound = bounds[collapses - std::min<std::size_t>(collapses, first + vsplits)];
   return {.mesh = mesh,
           .first_vsplit = first,
           .vsplits = vsplits,
           .vertices = recording.mesh.base_vertices + first + vsplits,
           .triangles = level.triangles,
           .strips = level.strips,
-          .error = level.error,
-          .one_sided_error = level.error};
+          .error = bound.two_sided,
+          .one_sided_error = bound.one_sided};
 }
 
 // Cuts the vsplits into packets that grow with the mesh, so that each sharpens it by a like share.
-void pack(const Recording& recording, Index mesh, const EncodeOptions& options, Encoded& out) {
+void pack(const Recording& recording, std::span<const ErrorBounds> bounds, Index mesh,
+          const EncodeOptions& options, Encoded& out) {
   const Index all = static_cast<Index>(recording.mesh.vsplits.size());
-  out.base = packet_at(recording, mesh, 0, 0);
+  out.base = packet_at(recording, bounds, mesh, 0, 0);
   for (Index first = 0; first < all;) {
     const double wanted = options.packet_growth * (recording.mesh.base_vertices + first);
     Index size = std::max(options.packet_min, static_cast<Index>(wanted));
     if (all - first < size + size / 2) size = all - first;  // no dwarf at the end
-    out.packets.push_back(packet_at(recording, mesh, first, size));
+    out.packets.push_back(packet_at(recording, bounds, mesh, first, size));
     first += size;
   }
 }
@@ -230,18 +238,22 @@ class Encoder {
     if (!go_on("simplify", 0)) return interrupted();
     Encoded out;
     CollapseSequence chosen;
+    std::vector<ErrorBounds> bounds;
     if (!given) {
       const bool by_error = options_.base_error.has_value();
       const double target = share_ * static_cast<double>(triangles.face.size());
       chosen = choose_collapses(
           mesh, triangles, options_,
           {.target_triangles = by_error ? 0 : static_cast<std::uint64_t>(target),
-           .max_error = by_error ? *options_.base_error : -1,
            .placement = options_.placement,
            .metric = options_.metric,
            .threads = threads},
           [&](std::string_view stage, double done) { return go_on(stage, 0.5 * done); });
       if (chosen.stop == SimplifyStop::interrupted) return interrupted();
+      if (by_error) {
+        bounds = level_bounds(mesh, triangles, chosen, *options_.base_error);
+        cut_back(mesh, triangles, *options_.base_error, chosen, bounds);
+      }
       given = &chosen;
       out.report = {.mesh = mesh.name,
                     .triangles = triangles.face.size(),
@@ -250,21 +262,35 @@ class Encoder {
                     .refused = chosen.refused,
                     .forced = chosen.forced};
     }
-    if (!go_on("stripify", 0.5)) return interrupted();
+    Result<Recording> recorded = interrupted();
+    parallel_invoke(
+        threads, [&] { recorded = record_mesh(m, triangles, *given, threads); },
+        [&] {
+          if (bounds.empty()) bounds = level_bounds(mesh, triangles, *given);
+        });
+    if (!recorded) return tl::unexpected(recorded.error());
+    pack(*recorded, bounds, m, options_, out);
+    out.mesh = std::move(recorded->mesh);
+    return out;
+  }
+
+  Result<Recording> record_mesh(Index m, const Triangulation& triangles,
+                                const CollapseSequence& sequence, unsigned threads) {
+    const Mesh& mesh = model_.meshes[m];
+    const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
+    if (!progress_.go_on("stripify", m, 0.5)) return interrupted();
     const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options,
-                                       step_cost_of(mesh, triangles, *given, threads));
+                                       step_cost_of(mesh, triangles, sequence, threads));
     if (strips.entries.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
-    if (!go_on("record", 0.75)) return interrupted();
-    Recording recording = record(mesh, strips, *given, options_.encoding);
+    if (!progress_.go_on("record", m, 0.75)) return interrupted();
+    Recording recording = record(mesh, strips, sequence, options_.encoding);
     FaceRecord faces = record_faces(mesh, triangles, strips, recording, options_.keep_order);
     recording.mesh.faces = std::move(faces.faces);
     recording.mesh.order = std::move(faces.order);
     const Digest sum = digest(mesh_to_decode(mesh, strips, recording));
     recording.mesh.digest.assign(sum.begin(), sum.end());
-    pack(recording, m, options_, out);
-    out.mesh = std::move(recording.mesh);
-    return out;
+    return recording;
   }
 
   std::vector<std::uint8_t> step_cost_of(const Mesh& mesh, const Triangulation& triangles,

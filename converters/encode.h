@@ -35,7 +35,7 @@ struct EncodeOptions {
   std::uint32_t level_cost = 1;
   double base_share = 0.05;                       ///< of each mesh's triangles that the base keeps
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
-  std::optional<double> base_error{};  ///< instead: largest distance estimate, model units
+  std::optional<double> base_error{};  ///< instead: largest Packet::error of it, model units
   Placement placement = Placement::subset;
   Metric metric = Metric::memoryless;
   /// How much attributes count when collapses are chosen, see AttributeWeight; the others as usual.

@@ -67,7 +67,7 @@ class Recorder {
   void change_wedge(Index at, Index to, Index vertex);
   void close_windows(Entry* entry, Index vertex);
   void close(Entry& window);
-  void begin_removal(Index vertex, Index parent, float error);
+  void begin_removal(Index vertex, Index parent);
   void end_removal();
   void turn_lists_round();
   void count_strips();
@@ -87,7 +87,6 @@ class Recorder {
   std::vector<Index> wedge_vertex_;  // empty as long as wedge i is vertex i
   std::vector<Index> first_entry_;   // of each wedge that holds it itself; kNone, kRemoved
   Index triangles_ = 0;
-  float error_ = 0;
   std::vector<Index> pending_;
 
   Recording out_;
@@ -214,15 +213,14 @@ void Recorder::rewrite(Index at, Index to) {
   change_wedge(at, to, vertex_of(to));
 }
 
-void Recorder::begin_removal(Index vertex, Index parent, float error) {
+void Recorder::begin_removal(Index vertex, Index parent) {
   if (moves_kept_) {
     const ByteView stood = moved_.element(parent == kNone ? vertex : parent);
     out_.mesh.parent_position.insert(out_.mesh.parent_position.end(), stood.begin(), stood.end());
   }
   removed_vertices_.push_back(vertex);
   out_.mesh.vsplits.push_back({parent, 0, 0, 0});
-  out_.levels.push_back({triangles_, 0, error_});
-  error_ = std::max(error_, error);
+  out_.levels.push_back({triangles_, 0});
 }
 
 void Recorder::remove_lone_vertices() {
@@ -237,7 +235,7 @@ void Recorder::remove_lone_vertices() {
   for (Index w = 0; w < mesh_.wedge_count(); ++w) wedges[at[vertex_of(w)]++] = w;
   for (Index v = mesh_.vertex_count(); v-- > 0;) {
     if (used[v]) continue;
-    begin_removal(v, kNone, 0);
+    begin_removal(v, kNone);
     for (Index k = first[v]; k < first[v + 1]; ++k) remove_wedge(wedges[k], kNone);
     end_removal();
   }
@@ -277,7 +275,7 @@ void Recorder::collapse_all() {
 }
 
 void Recorder::collapse(const Collapse& collapse, std::span<const WedgeMove> moves) {
-  begin_removal(collapse.removed, collapse.kept, collapse.error);
+  begin_removal(collapse.removed, collapse.kept);
   for (const WedgeMove& move : moves) {
     const Index first = first_entry_[move.from];
     if (first == kRemoved) continue;
@@ -339,7 +337,7 @@ void Recorder::end_removal() {
 
 void Recorder::turn_lists_round() {
   ProgressiveMesh& mesh = out_.mesh;
-  out_.levels.push_back({triangles_, 0, error_});
+  out_.levels.push_back({triangles_, 0});
   std::ranges::reverse(out_.levels);
   std::ranges::reverse(mesh.vsplits);
   for (auto* list :

@@ -12,7 +12,6 @@ namespace pstrip {
 struct LevelCounts {
   Index triangles = 0;
   Index strips = 0;  ///< with at least one triangle
-  float error = 0;   ///< of the coarsest collapse not yet undone; 0 at full resolution
 };
 
 /// A progressive mesh and how its numbering relates to the mesh it was made from.

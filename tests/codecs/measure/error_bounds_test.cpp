@@ -223,7 +223,7 @@ TEST(ErrorBounds, HoldOnSmoothSurfaces) {
         EXPECT_EQ(broken_bound(
                       simplified(of_mesh(mesh),
                                  {.target_triangles = 4, .placement = placement, .metric = metric}),
-                      37),
+                      150),
                   "");
 }
 
