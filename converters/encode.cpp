@@ -205,26 +205,26 @@ class Encoder {
     share_ = all ? static_cast<double>(*options_.base_triangles) / static_cast<double>(all) : 0;
   }
 
-  // Meshes that are large beside all of them, or beside the memory granted, are encoded one after
-  // the other with all threads inside, the rest side by side with one thread each: together these
-  // stay below what is granted.
+  // The meshes side by side, the largest first so that none is left for the end; those of which not
+  // as many as there are threads fit into the memory granted one after the other before. A mesh
+  // that is more than one thread's share of the work may use all threads inside, others one.
   std::vector<Result<Encoded>> encode_meshes(const std::vector<CollapseSequence>* given) {
     const unsigned threads = thread_count(options_.threads);
-    const std::uint64_t all = std::accumulate(bytes_.begin(), bytes_.end(), std::uint64_t{0});
-    const std::uint64_t large = std::min(all, options_.memory_bytes) / threads;
+    const std::uint64_t share =
+        std::accumulate(bytes_.begin(), bytes_.end(), std::uint64_t{0}) / threads;
     std::vector<Result<Encoded>> out(bytes_.size());
-    const auto encode_one = [&](Index m, unsigned inside) {
-      out[m] = encode_mesh(m, given ? &(*given)[m] : nullptr, inside);
+    const auto encode_one = [&](Index m) {
+      out[m] = encode_mesh(m, given ? &(*given)[m] : nullptr, bytes_[m] > share ? threads : 1);
     };
-    std::vector<Index> rest;
-    for (Index m = 0; m < bytes_.size(); ++m) {
-      if (bytes_[m] > large)
-        encode_one(m, threads);
-      else
-        rest.push_back(m);
-    }
-    parallel_for(threads, rest.size(), 1,
-                 [&](std::size_t begin, std::size_t) { encode_one(rest[begin], 1); });
+    std::vector<Index> by_size(bytes_.size());
+    std::iota(by_size.begin(), by_size.end(), Index{0});
+    std::ranges::stable_sort(by_size, std::ranges::greater{}, [&](Index m) { return bytes_[m]; });
+    const auto fits = std::ranges::find_if(
+        by_size, [&](Index m) { return bytes_[m] <= options_.memory_bytes / threads; });
+    std::for_each(by_size.begin(), fits, encode_one);
+    parallel_for(
+        threads, static_cast<std::size_t>(by_size.end() - fits), 1,
+        [&](std::size_t i, std::size_t) { encode_one(fits[static_cast<std::ptrdiff_t>(i)]); });
     return out;
   }
 
