@@ -93,6 +93,16 @@ std::optional<Texture> read_texture(const Image& image, const fs::path& folder) 
   return out;
 }
 
+// An OBJ file without materials may have its image beside it; the first by name.
+std::optional<Texture> texture_beside(const fs::path& model) {
+  fs::path image;
+  for (const auto& file : fs::directory_iterator(model.parent_path()))
+    if (file.path().extension() == ".png" && (image.empty() || file.path() < image))
+      image = file.path();
+  return image.empty() ? std::nullopt
+                       : read_texture({{}, image.filename().string(), {}, {}}, image.parent_path());
+}
+
 // The images of materials, and for the rest a generated one.
 void add_textures(const Model& model, const fs::path& path, Subject& subject) {
   subject.textures.push_back(checker_texture(kMostTexels, 32));
@@ -102,14 +112,11 @@ void add_textures(const Model& model, const fs::path& path, Subject& subject) {
       image_texture[i] = static_cast<Index>(subject.textures.size());
       subject.textures.push_back(std::move(*texture));
     }
-  Index lone = 0;  // an OBJ file without materials may have its image beside it
-  if (model.scene.images.empty())
-    for (const auto& file : fs::directory_iterator(path.parent_path()))
-      if (file.path().extension() == ".png")
-        if (auto texture = read_texture({{}, file.path().filename(), {}, {}}, path.parent_path())) {
-          lone = static_cast<Index>(subject.textures.size());
-          subject.textures.push_back(std::move(*texture));
-        }
+  Index lone = 0;
+  if (auto texture = model.scene.images.empty() ? texture_beside(path) : std::nullopt) {
+    lone = static_cast<Index>(subject.textures.size());
+    subject.textures.push_back(std::move(*texture));
+  }
   for (const Group& group : subject.mesh.groups) {
     Index texture = lone;
     if (group.material != kNone) {
@@ -184,6 +191,7 @@ std::optional<Subject> read_subject(const std::string& name) {
   subject.mesh = *std::ranges::max_element(
       model.meshes, {}, [](const Mesh& m) { return triangulate(m).face.size(); });
   keep_triangles(subject.mesh);
+  if (subject.mesh.corners.empty()) return std::nullopt;
   if (path.extension() == ".obj") turn_v(subject.mesh);
   if (name == "charts") {
     subject.textures.push_back(checker_texture(kMostTexels, 128));
