@@ -262,12 +262,16 @@ class Encoder {
                     .refused = chosen.refused,
                     .forced = chosen.forced};
     }
+    if (!go_on("bounds", 0.5)) return interrupted();
+    // Of large meshes one after the other: both together take more memory than all else.
+    constexpr std::uint64_t kLargeBytes = 1 << 27;
     Result<Recording> recorded = interrupted();
     parallel_invoke(
-        threads, [&] { recorded = record_mesh(m, triangles, *given, threads); },
+        bytes_[m] <= kLargeBytes ? threads : 1,
         [&] {
           if (bounds.empty()) bounds = level_bounds(mesh, triangles, *given);
-        });
+        },
+        [&] { recorded = record_mesh(m, triangles, *given, threads); });
     if (!recorded) return tl::unexpected(recorded.error());
     pack(*recorded, bounds, m, options_, out);
     out.mesh = std::move(recorded->mesh);
@@ -278,12 +282,12 @@ class Encoder {
                                 const CollapseSequence& sequence, unsigned threads) {
     const Mesh& mesh = model_.meshes[m];
     const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
-    if (!progress_.go_on("stripify", m, 0.5)) return interrupted();
+    if (!progress_.go_on("stripify", m, 0.65)) return interrupted();
     const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options,
                                        step_cost_of(mesh, triangles, sequence, threads));
     if (strips.entries.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
-    if (!progress_.go_on("record", m, 0.75)) return interrupted();
+    if (!progress_.go_on("record", m, 0.85)) return interrupted();
     Recording recording = record(mesh, strips, sequence, options_.encoding);
     FaceRecord faces = record_faces(mesh, triangles, strips, recording, options_.keep_order);
     recording.mesh.faces = std::move(faces.faces);
