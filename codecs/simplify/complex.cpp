@@ -139,6 +139,7 @@ void Complex::gather_regular(Index vertex, Star& star) {
     edge.vertex = spoke.next;
     edge.triangles = 2;
     edge.refused = Guard::none;
+    edge.has_gap = false;
     ++live;
   }
   record.ring_size = live;

@@ -39,6 +39,7 @@ struct StarEdge {
   float cost = 0, error = 0;
   Vec3f place = {};  ///< offset from the star's vertex of where the collapse would leave it
   Guard refused = Guard::none;
+  bool has_gap = false;  ///< its cost counts squared_gap()
 };
 
 /// Where four edges of a star lead.

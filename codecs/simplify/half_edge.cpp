@@ -12,6 +12,7 @@
 
 #include "codecs/simplify/collapse_loop.h"
 #include "codecs/simplify/complex.h"
+#include "codecs/simplify/gap.h"
 #include "codecs/simplify/guards.h"
 #include "codecs/simplify/initial_quadrics.h"
 #include "codecs/simplify/vertex_buckets.h"
@@ -67,6 +68,7 @@ class HalfEdgeSimplifier {
   void price(Candidate& at) const;
   void price_wedges(Candidate& at);
   void apply_limit(Candidate& at) const;
+  StarEdge* cheapest(Candidate& at) const;
   const StarEdge* choose(float limit);
   Guard check(const StarEdge& edge);
   void collapse(const StarEdge& edge);
@@ -108,21 +110,20 @@ void HalfEdgeSimplifier::fill_queue() {
   constexpr std::size_t kGrain = 4096;
   if (wedges_) builder_.add_attributes();
   std::vector<float> keys(complex_.vertex_count(), kInfinity);
-  const auto least_cost = [](const Star& star) {
-    float least = kInfinity;
-    for (const StarEdge& edge : star.edges) least = std::min(least, edge.cost);
-    return least;
+  const auto least_cost = [&](Candidate& at) {
+    const StarEdge* const edge = cheapest(at);
+    return edge ? edge->cost : kInfinity;
   };
   constexpr float kNotYet = -1;
   parallel_for(options_.threads, keys.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     Candidate at;
     for (Index v = static_cast<Index>(begin); v < end; ++v)
-      if (!complex_.is_locked(v)) keys[v] = start_plain(v, at) ? least_cost(at.star) : kNotYet;
+      if (!complex_.is_locked(v)) keys[v] = start_plain(v, at) ? least_cost(at) : kNotYet;
   });
   for (Index v = 0; v < keys.size(); ++v)
     if (keys[v] == kNotYet) {
       start(v, now_);
-      keys[v] = least_cost(now_.star);
+      keys[v] = least_cost(now_);
     }
   queue_.emplace(keys);
 }
@@ -252,17 +253,30 @@ void HalfEdgeSimplifier::apply_limit(Candidate& at) const {
   }
 }
 
+// The edge that costs least, with its gap: that counts for the weight of the whole star. Gaps are
+// asked for only where they may decide. Null if the star has no edges.
+StarEdge* HalfEdgeSimplifier::cheapest(Candidate& at) const {
+  const bool large = at.star.spokes.size() > kLargeRing;
+  for (;;) {
+    StarEdge* best = nullptr;
+    for (StarEdge& edge : at.star.edges)
+      if (!best || edge.cost < best->cost ||
+          (edge.cost == best->cost && edge.vertex < best->vertex))
+        best = &edge;
+    if (!best || best->has_gap || large || best->cost == kInfinity) return best;
+    best->has_gap = true;
+    best->cost +=
+        at.quadric.weight * squared_gap(at.star, complex_.offset(at.star.vertex, best->vertex));
+  }
+}
+
 // The edge to collapse now, all others costing at least about `limit`: refused edges are made
 // dearer and compared again. Null after the vertex was put back or has no edge left.
 const StarEdge* HalfEdgeSimplifier::choose(float limit) {
   const Index q = now_.star.vertex;
   const bool large = now_.star.spokes.size() > kLargeRing;
   for (int checks = 0;; ++checks) {
-    StarEdge* best = nullptr;
-    for (StarEdge& edge : now_.star.edges)
-      if (!best || edge.cost < best->cost ||
-          (edge.cost == best->cost && edge.vertex < best->vertex))
-        best = &edge;
+    StarEdge* const best = cheapest(now_);
     if (!best || best->cost == kInfinity) return nullptr;
     if (best->cost > limit) {
       // A large ring comes up less often when its key is a little too high.

@@ -4,11 +4,10 @@
 
 namespace pstrip {
 
-/// simplify() with subset placement; with the memoryless metric only if each vertex has one wedge
-/// without attributes. A vertex stands in the heap once, under a lower bound of its cheapest
-/// collapse: errors only grow, so the bound is checked when the vertex comes up, and only edges
-/// that a collapse creates are looked at at once. With the memoryless metric errors may fall, and
-/// such a collapse is found late; a vertex looks at the faces around it again when it comes up.
+/// simplify() with subset placement. A vertex waits under the cost of its cheapest collapse when it
+/// was last looked at, and is looked at again when it comes up; nothing else is kept up to date.
+/// Costs that have fallen meanwhile are found late. They rarely fall: looking at the kept vertex and
+/// its neighbours after each collapse gave levels no nearer to the source.
 CollapseSequence simplify_half_edges(const SimplifyInput& input, const SimplifyOptions& options,
                                      const Progress& progress);
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "codecs/simplify/complex.h"
+
+namespace pstrip {
+
+/// How far from the model a collapse of a star's vertex onto the other end of an edge leaves the
+/// place where it stood: its distance, squared, to the nearest of the faces that the star becomes
+/// and of their edges at the other end. Planes of faces do not tell: the tip of a thin spike lies
+/// near all of them wherever it goes. Cost O(star); the star must have been measured.
+float squared_gap(const Star& star, Vec3f offset);
+
+}  // namespace pstrip

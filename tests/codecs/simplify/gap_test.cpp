@@ -1,0 +1,38 @@
+#include "codecs/simplify/gap.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace pstrip {
+namespace {
+
+// In squared model units: of a tip over a square of side 2 when it goes to the corner (1, 1, 0).
+double gap_of(double x, double y, double z) {
+  const std::vector<double> positions = {x, y, z, 1, 1, 0, -1, 1, 0, -1, -1, 0, 1, -1, 0, 9, 9, 9};
+  const std::vector<Index> triangles = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1};
+  Complex complex(positions, {}, triangles);
+  Star star;
+  complex.gather(0, star);
+  star.measure();
+  const double unit = complex.scale[0] * complex.scale[1];
+  return squared_gap(star, complex.offset(0, 1)) / (unit * unit);
+}
+
+TEST(SquaredGap, IsNothingOnAPlane) { EXPECT_NEAR(gap_of(0.25, -0.5, 0), 0, 1e-6); }
+
+TEST(SquaredGap, IsTheHeightOfATip) {
+  EXPECT_NEAR(gap_of(0, 0, 3), 9, 1e-4);
+  EXPECT_NEAR(gap_of(0.5, 0.25, -0.1), 0.01, 1e-5);
+  EXPECT_NEAR(gap_of(-0.9, 0.9, 8), 64, 1e-3);
+}
+
+TEST(SquaredGap, IsToAnEdgeWhereNoFaceIsBelow) {
+  EXPECT_NEAR(gap_of(4, 0, 1), 10, 1e-4);  // (1, 0, 0) is nearest
+  EXPECT_NEAR(gap_of(0, 3, 2), 8, 1e-4);   // (0, 1, 0)
+}
+
+TEST(SquaredGap, IsToTheOtherEndWhereNothingElseIsNear) { EXPECT_NEAR(gap_of(4, 5, 0), 25, 1e-4); }
+
+}  // namespace
+}  // namespace pstrip
