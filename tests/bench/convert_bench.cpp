@@ -23,6 +23,7 @@
 #include "codecs/vsplit/record.h"
 #include "converters/encode.h"
 #include "converters/files.h"
+#include "converters/level_bounds.h"
 #include "converters/level_cost.h"
 #include "converters/strip_mesh.h"
 #include "formats/pstrip/binary.h"
@@ -118,6 +119,7 @@ void run_stages(const std::string& input, Stages& stages) {
                          .attribute_count = 0},
                         {.target_triangles = triangles.face.size() / 20});
   });
+  stages.run("bounds", [&] { level_bounds(mesh, triangles, sequence); });
   std::vector<std::uint8_t> cost;
   stages.run("level cost",
              [&] { cost = level_step_cost(vertices, mesh.vertex_count(), sequence.collapses, 1); });
