@@ -239,8 +239,8 @@ def main():
         start = time.monotonic()
         page.add(f"## {section.capitalize()}\n\n{SECTIONS[section].__doc__ or ''}")
         SECTIONS[section](page)
+        page.write(sections)  # what a run that is cut short has got
         print(f"{section}: {time.monotonic() - start:.0f} s", file=sys.stderr, flush=True)
-    page.write(sections)
     print(folder / "encoder.md")
 
 
