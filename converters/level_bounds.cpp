@@ -14,6 +14,14 @@ std::vector<Index> corner_vertices(const Mesh& mesh, const Triangulation& triang
   return out;
 }
 
+std::vector<Point> vertex_points(const Attribute& position) {
+  std::vector<Point> out(position.elements());
+  const std::size_t axes = std::min<std::size_t>(3, position.count);
+  for (std::size_t v = 0; v < out.size(); ++v)
+    for (std::size_t k = 0; k < axes; ++k) out[v][k] = component(position, v, k);
+  return out;
+}
+
 // As record() stores them and a decoder gets them back.
 std::vector<double> stored_placements(const Attribute& position,
                                       const std::vector<double>& placements) {
@@ -50,10 +58,10 @@ std::uint64_t triangles_left(const Mesh& mesh, const Triangulation& triangles,
 
 std::vector<ErrorBounds> level_bounds(const Mesh& mesh, const Triangulation& triangles,
                                       const CollapseSequence& sequence, double most) {
-  const std::vector<double> positions = positions_as_double(mesh),
-                            placements = stored_placements(mesh.position, sequence.placements);
-  const std::vector<Index> corners = corner_vertices(mesh, triangles);
-  return error_bounds({positions, corners, sequence.collapses, placements}, most);
+  const std::vector<double> placements = stored_placements(mesh.position, sequence.placements);
+  return error_bounds({vertex_points(mesh.position), corner_vertices(mesh, triangles),
+                       sequence.collapses, placements},
+                      most);
 }
 
 void cut_back(const Mesh& mesh, const Triangulation& triangles, double most,

@@ -5,6 +5,7 @@
 #include "codecs/measure/error_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -92,12 +93,15 @@ constexpr float kUnbounded = std::numeric_limits<float>::max();
 // looked at by patches, some 20 ns each. Ordinary meshes need a part of it.
 constexpr std::uint64_t kWorkAtOnce = 1 << 22;
 constexpr std::uint64_t kWorkEach = 64;
+// Up to so many triangles around a vertex looking through them is quicker than a list by vertex.
+constexpr Index kSmallRing = 24;
+constexpr std::size_t kAhead = 8;
 // Of the error so far: triangles nearer than this are not worth a better map.
 constexpr double kNearEnough = 1.0 / 16;
 
 class Replay {
  public:
-  explicit Replay(const CollapsedSurface& surface);
+  explicit Replay(CollapsedSurface surface);
   void collapse(std::size_t i);
   /// Of the level that is reached.
   float bound() const;
@@ -107,11 +111,12 @@ class Replay {
   static constexpr float kOutside = -2;  // no triangle ever was there
   static constexpr float kNothing = -1;
 
-  Point scaled(std::span<const double> from, std::size_t i) const {
-    return {from[3 * i] * scale_, from[3 * i + 1] * scale_, from[3 * i + 2] * scale_};
+  Point placement(std::size_t i) const {
+    return Point{placements_[3 * i], placements_[3 * i + 1], placements_[3 * i + 2]} * scale_;
   }
   bool is_dead(Index face) const { return faces_[face].vertex[0] == kNone; }
-  void add_face(Index f);
+  void add_face(Index f, std::span<const Index> corners);
+  void fetch_ahead(std::size_t i);
   void gather(Index vertex, Ring& ring);
   void order(Ring& ring);
 
@@ -122,6 +127,7 @@ class Replay {
   bool move_on_border(const Ring& ring, const Point& to);
   bool map_onto(const Ring& ring, Index kept);
   bool run_fan(const Point& normal);
+  bool raises_error(std::size_t corners) const;
   void shift(Index face, const Point& step);
 
   PatchMap::Patch patch_of(Index face) const;
@@ -132,7 +138,9 @@ class Replay {
   double leave_points();
   void shrink_to(Index vertex);
 
-  const CollapsedSurface& surface_;
+  std::span<const Collapse> collapses_;
+  std::array<Index, kAhead> ahead_;  // a corner at the vertex of each coming collapse, or kNone
+  std::span<const double> placements_;
   double scale_ = 1;  // of a model unit: the largest coordinate is about 1
   double error_ = 0;
   std::uint64_t work_left_ = kWorkAtOnce;
@@ -142,7 +150,7 @@ class Replay {
   std::vector<float> shrunk_;     // by vertex, see kNothing
   std::vector<Index> alias_;      // the vertex that stands for each now, with free placement
   std::vector<Index> slot_;       // by vertex, while a ring is put in order
-  std::vector<Index> corners_, in_order_, changed_;
+  std::vector<Index> corners_, firsts_, seconds_, in_order_, changed_;
   std::vector<std::pair<Index, Index>> bereft_;  // third vertices of triangles that died, and these
   std::vector<std::uint8_t> follows_;
   std::vector<Point> normals_;
@@ -151,31 +159,36 @@ class Replay {
   PatchMap patches_;
 };
 
-Replay::Replay(const CollapsedSurface& surface) : surface_(surface) {
-  const std::size_t vertices = surface.positions.size() / 3;
+Replay::Replay(CollapsedSurface surface)
+    : collapses_(surface.collapses),
+      placements_(surface.placements),
+      points_(std::move(surface.positions)) {
+  ahead_.fill(kNone);
+  const std::size_t vertices = points_.size();
   double most = 0;
-  for (const auto& list : {surface.positions, surface.placements})
-    for (const double x : list)
-      if (std::isfinite(x)) most = std::max(most, std::abs(x));
+  const auto look_at = [&](double x) {
+    if (std::isfinite(x)) most = std::max(most, std::abs(x));
+  };
+  for (const Point& p : points_) std::ranges::for_each(p, look_at);
+  std::ranges::for_each(placements_, look_at);
   if (most > 0) scale_ = std::ldexp(1.0, std::clamp(-std::ilogb(most), -1000, 1000));
-  points_.resize(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) points_[v] = scaled(surface.positions, v);
+  for (Point& p : points_) p = p * scale_;
   corner_at_.assign(vertices, kNone);
   shrunk_.assign(vertices, kOutside);
   slot_.assign(vertices, 0);
-  if (!surface.placements.empty()) {
+  if (!placements_.empty()) {
     alias_.resize(vertices);
     std::iota(alias_.begin(), alias_.end(), Index{0});
   }
   faces_.resize(surface.triangles.size() / 3);
-  for (Index f = 0; f < faces_.size(); ++f) add_face(f);
+  for (Index f = 0; f < faces_.size(); ++f)
+    add_face(f, std::span(surface.triangles).subspan(std::size_t{3} * f, 3));
   for (std::size_t v = 0; v < vertices; ++v)
     if (shrunk_[v] == kNothing && corner_at_[v] == kNone) shrunk_[v] = 0;
 }
 
-void Replay::add_face(Index f) {
+void Replay::add_face(Index f, std::span<const Index> corners) {
   Face& face = faces_[f];
-  const auto corners = surface_.triangles.subspan(std::size_t{3} * f, 3);
   std::ranges::copy(corners, face.vertex);
   for (const Index v : corners) shrunk_[v] = kNothing;
   if (!std::ranges::all_of(corners, [&](Index v) { return is_finite(points_[v]); })) {
@@ -222,18 +235,28 @@ void Replay::gather(Index vertex, Ring& ring) {
 
 void Replay::order(Ring& ring) {
   const Index n = static_cast<Index>(corners_.size());
-  const auto other_end = [&](Index i, Index by) {
-    return faces_[corners_[i] / 3].vertex[(corners_[i] % 3 + by) % 3];
-  };
-  for (Index i = 0; i < n; ++i) slot_[other_end(i, 1)] = i;
-  const auto starting_with = [&](Index neighbour) {
-    const Index i = slot_[neighbour];
-    return i < n && other_end(i, 1) == neighbour ? i : kNone;
+  firsts_.clear();
+  seconds_.clear();
+  for (const Index c : corners_) {
+    const Face& face = faces_[c / 3];
+    firsts_.push_back(face.vertex[(c + 1) % 3]);
+    seconds_.push_back(face.vertex[(c + 2) % 3]);
+  }
+  const bool is_small = n <= kSmallRing;
+  for (Index i = 0; i < n && !is_small; ++i) slot_[firsts_[i]] = i;
+  const auto starting_with = [&](Index neighbour) -> Index {
+    if (!is_small) {
+      const Index i = slot_[neighbour];
+      return i < n && firsts_[i] == neighbour ? i : kNone;
+    }
+    for (Index i = 0; i < n; ++i)
+      if (firsts_[i] == neighbour) return i;
+    return kNone;
   };
   follows_.assign(n, 0);
   for (Index i = 0; i < n; ++i) {
-    if (starting_with(other_end(i, 1)) != i) return;  // two start with it
-    const Index next = starting_with(other_end(i, 2));
+    if (starting_with(firsts_[i]) != i) return;  // two start with it
+    const Index next = starting_with(seconds_[i]);
     if (next != kNone) follows_[next] = 1;
   }
   const auto first = std::ranges::find(follows_, 0);
@@ -242,10 +265,10 @@ void Replay::order(Ring& ring) {
   Index at = start;
   do {
     in_order_.push_back(corners_[at] / 3);
-    ring.neighbours.push_back(other_end(at, 1));
-    const Index last = at;
-    at = starting_with(other_end(last, 2));
-    if (at == kNone) ring.neighbours.push_back(other_end(last, 2));
+    ring.neighbours.push_back(firsts_[at]);
+    const Index second = seconds_[at];
+    at = starting_with(second);
+    if (at == kNone) ring.neighbours.push_back(second);
   } while (at != kNone && at != start && in_order_.size() < n);
   if (in_order_.size() < n || (at != kNone && at != start)) return;
   ring.kind = at == start ? Ring::Kind::closed : Ring::Kind::open;
@@ -303,8 +326,16 @@ bool Replay::map_onto(const Ring& ring, Index kept) {
     normal =
         normal + cross(fan_.rim[i].position - fan_.target, fan_.rim[i + 1].position - fan_.target);
   if (!run_fan(normal) && !(turn_to_face(fan_, normal, normals_) && run_fan(normal))) return false;
+  if (patches_.before.empty() && raises_error(n)) save(ring, kNone);
   for (std::size_t i = 1; i + 1 < n; ++i) faces_[ring.faces[triangle(i)]].box = fan_.after[i];
   return true;
+}
+
+// Whether the fan's new triangles would.
+bool Replay::raises_error(std::size_t corners) const {
+  for (std::size_t i = 1; i + 1 < corners; ++i)
+    if (fan_.after[i].longest() > error_) return true;
+  return false;
 }
 
 // Moves the ring's vertex: onto the point of the surface below `to`, then up to it.
@@ -513,13 +544,30 @@ bool Replay::move_then_map(Ring& kept, Ring& removed, const Point& place) {
   return false;
 }
 
+// Collapses jump all over the mesh, and each triangle around a vertex names the next: with a step
+// for each of the coming collapses they are in the cache when their turn comes.
+void Replay::fetch_ahead(std::size_t i) {
+  for (Index& corner : ahead_) {
+    if (corner == kNone) continue;
+    const Face& face = faces_[corner / 3];
+    if (!is_dead(corner / 3)) __builtin_prefetch(&points_[face.vertex[(corner + 1) % 3]]);
+    corner = face.next[corner % 3];
+    __builtin_prefetch(&faces_[corner / 3]);
+  }
+  if (i + 2 * kAhead < collapses_.size())
+    __builtin_prefetch(&corner_at_[collapses_[i + 2 * kAhead].removed]);
+  if (i + kAhead < collapses_.size())
+    ahead_[i % kAhead] = corner_at_[collapses_[i + kAhead].removed];
+}
+
 void Replay::collapse(std::size_t i) {
-  const Collapse& collapse = surface_.collapses[i];
-  const bool is_free = !surface_.placements.empty();
+  fetch_ahead(i);
+  const Collapse& collapse = collapses_[i];
+  const bool is_free = !placements_.empty();
   Index kept = is_free ? alias_[collapse.kept] : collapse.kept;
   const Index removed = is_free ? alias_[collapse.removed] : collapse.removed;
   const Point stood = points_[kept], from = points_[removed];
-  const Point place = is_free ? scaled(surface_.placements, i) : stood;
+  const Point place = is_free ? placement(i) : stood;
   if (!is_finite(place) || !is_finite(stood) || !is_finite(from))
     error_ = std::numeric_limits<double>::infinity();
   if (std::isinf(error_)) return;
@@ -531,12 +579,13 @@ void Replay::collapse(std::size_t i) {
     shrunk = std::max(shrunk, rounded_up(shrunk_[removed] + length(place - from)));
   patches_.before.clear();
   gather(removed, removed_ring_);
-  save(removed_ring_, kNone);
   bool is_mapped;
   if (place == stood) {
     is_mapped = map_onto(removed_ring_, kept);
+    if (!is_mapped) save(removed_ring_, kNone);
     merge(removed_ring_, kept);
   } else {
+    save(removed_ring_, kNone);
     gather(kept, kept_ring_);
     save(kept_ring_, removed);
     is_mapped = map_between(kept_ring_, removed_ring_, place);
@@ -550,11 +599,12 @@ void Replay::collapse(std::size_t i) {
 
 }  // namespace
 
-std::vector<ErrorBounds> error_bounds(const CollapsedSurface& surface, double most) {
+std::vector<ErrorBounds> error_bounds(CollapsedSurface surface, double most) {
   std::vector<ErrorBounds> out{{}};
-  out.reserve(surface.collapses.size() + 1);
-  Replay replay(surface);
-  for (std::size_t i = 0; i < surface.collapses.size() && out.back().two_sided <= most; ++i) {
+  const std::size_t collapses = surface.collapses.size();
+  out.reserve(collapses + 1);
+  Replay replay(std::move(surface));
+  for (std::size_t i = 0; i < collapses && out.back().two_sided <= most; ++i) {
     replay.collapse(i);
     out.push_back({replay.bound(), replay.bound()});
   }

@@ -6,6 +6,7 @@
 
 #include "codecs/simplify/simplify.h"
 #include "core/mesh.h"
+#include "core/point.h"
 
 namespace pstrip {
 
@@ -19,8 +20,8 @@ struct ErrorBounds {
 
 /// A mesh by vertices, and how it gets coarser.
 struct CollapsedSurface {
-  std::span<const double> positions;  ///< 3 a vertex
-  std::span<const Index> triangles;   ///< 3 n vertices, those of a triangle distinct
+  std::vector<Point> positions;  ///< of all vertices
+  std::vector<Index> triangles;  ///< 3 n vertices, those of a triangle distinct
   std::span<const Collapse> collapses;
   /// As in CollapseSequence, but rounded as they are going to be stored; empty: no vertex moves.
   std::span<const double> placements;
@@ -38,13 +39,14 @@ struct CollapsedSurface {
 /// not finite is removed, moved or collapsed onto, and where a coordinate is too large, the largest
 /// float is the bound from there on.
 ///
-/// most    ends with the first level whose two-sided bound is larger
-/// cost    O(n log n); 1 to 3 µs a collapse, 80 bytes a triangle; deterministic
-/// source  [Cohen97]: maps in the plane, their edges' crossings, boxes of displacements.
-///         Differs: the plane is across the mean normal instead of found by linear programming;
-///         a triangle has one box; open fans map along the border; what has no plane is cut up and
-///         mapped to what is nearest (PatchMap), and so is what would raise the bound.
-std::vector<ErrorBounds> error_bounds(const CollapsedSurface& surface,
+/// surface  pass it by moving: its lists are freed or worked in
+/// most     ends with the first level whose two-sided bound is larger
+/// cost     O(n log n); 1 to 3 µs a collapse, 70 bytes a triangle; deterministic
+/// source   [Cohen97]: maps in the plane, their edges' crossings, boxes of displacements.
+///          Differs: the plane is across the mean normal instead of found by linear programming;
+///          a triangle has one box; open fans map along the border; what has no plane is cut up
+///          and mapped to what is nearest (PatchMap), and so is what would raise the bound.
+std::vector<ErrorBounds> error_bounds(CollapsedSurface surface,
                                       double most = std::numeric_limits<double>::infinity());
 
 }  // namespace pstrip

@@ -31,18 +31,19 @@ struct Shape {
   std::vector<Index> triangles;
 };
 
-Shape level_of(const CollapsedSurface& surface, std::size_t collapses) {
-  Shape out{{surface.positions.begin(), surface.positions.end()}, {}};
-  std::vector<Index> stands_for(surface.positions.size() / 3);
+Shape level_of(const Shape& source, const CollapseSequence& sequence, std::size_t collapses) {
+  Shape out{source.positions, {}};
+  std::vector<Index> stands_for(source.positions.size() / 3);
   std::iota(stands_for.begin(), stands_for.end(), Index{0});
   for (std::size_t i = collapses; i-- > 0;)
-    stands_for[surface.collapses[i].removed] = stands_for[surface.collapses[i].kept];
-  if (!surface.placements.empty())
+    stands_for[sequence.collapses[i].removed] = stands_for[sequence.collapses[i].kept];
+  if (!sequence.placements.empty())
     for (std::size_t i = 0; i < 3 * collapses; ++i)
-      out.positions[std::size_t{3} * surface.collapses[i / 3].kept + i % 3] = surface.placements[i];
-  for (std::size_t t = 0; t < surface.triangles.size(); t += 3) {
-    const Index a = stands_for[surface.triangles[t]], b = stands_for[surface.triangles[t + 1]],
-                c = stands_for[surface.triangles[t + 2]];
+      out.positions[std::size_t{3} * sequence.collapses[i / 3].kept + i % 3] =
+          sequence.placements[i];
+  for (std::size_t t = 0; t < source.triangles.size(); t += 3) {
+    const Index a = stands_for[source.triangles[t]], b = stands_for[source.triangles[t + 1]],
+                c = stands_for[source.triangles[t + 2]];
     if (a != b && b != c && a != c) out.triangles.insert(out.triangles.end(), {a, b, c});
   }
   return out;
@@ -56,10 +57,12 @@ void run(const std::string& model, const Shape& source, Placement placement, Met
                                               .placement = placement,
                                               .metric = metric});
   const double simplify_seconds = cpu_seconds() - start;
-  const CollapsedSurface surface{source.positions, source.triangles, sequence.collapses,
-                                 sequence.placements};
+  CollapsedSurface surface{{}, source.triangles, sequence.collapses, sequence.placements};
+  for (std::size_t i = 0; i < source.positions.size(); i += 3)
+    surface.positions.push_back(
+        {source.positions[i], source.positions[i + 1], source.positions[i + 2]});
   start = cpu_seconds();
-  const std::vector<ErrorBounds> bounds = error_bounds(surface);
+  const std::vector<ErrorBounds> bounds = error_bounds(std::move(surface));
   const double seconds = cpu_seconds() - start;
   const double collapses = static_cast<double>(sequence.collapses.size());
   fmt::print("{:24} {} {}: {:.2f} µs a collapse to simplify, {:.2f} to bound\n", model,
@@ -72,12 +75,13 @@ void run(const std::string& model, const Shape& source, Placement placement, Met
     std::size_t low = 0, high = sequence.collapses.size();
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      if (static_cast<double>(level_of(surface, middle).triangles.size() / 3) > share * all)
+      if (static_cast<double>(level_of(source, sequence, middle).triangles.size() / 3) >
+          share * all)
         low = middle + 1;
       else
         high = middle;
     }
-    const Shape level = level_of(surface, low);
+    const Shape level = level_of(source, sequence, low);
     const Distance d = measure_distance({source.positions, source.triangles},
                                         {level.positions, level.triangles}, samples);
     const ErrorBounds& b = bounds[low];
