@@ -294,7 +294,7 @@ void Recorder::carry(Index wedge, Index kept) {
     std::iota(wedge_vertex_.begin(), wedge_vertex_.end(), Index{0});
   }
   wedge_vertex_[wedge] = kept;
-  for (Index e = first_entry_[wedge]; e != kNone; e = entry(e).next) change_wedge(e, wedge, kept);
+  for (Index e = first_entry_[wedge]; e < kRemoved; e = entry(e).next) change_wedge(e, wedge, kept);
   out_.mesh.carried.push_back(wedge);
   ++out_.mesh.vsplits.back().carried;
 }
@@ -303,7 +303,7 @@ void Recorder::carry(Index wedge, Index kept) {
 void Recorder::remove_wedge(Index wedge, Index replacement) {
   std::vector<Index>& places = out_.mesh.places;
   const std::size_t first = places.size();
-  for (Index e = first_entry_[wedge]; e != kNone; e = entry(e).next) places.push_back(e);
+  for (Index e = first_entry_[wedge]; e < kRemoved; e = entry(e).next) places.push_back(e);
   first_entry_[wedge] = kRemoved;
   if (places.size() - first > 1)
     std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.end());
