@@ -95,7 +95,7 @@ constexpr std::uint64_t kWorkAtOnce = 1 << 22;
 constexpr std::uint64_t kWorkEach = 64;
 // Up to so many triangles around a vertex looking through them is quicker than a list by vertex.
 constexpr Index kSmallRing = 24;
-constexpr std::size_t kAhead = 8;
+constexpr std::size_t kAhead = 8;  // collapses, and so steps around a vertex; rings have 6 or so
 // Of the error so far: triangles nearer than this are not worth a better map.
 constexpr double kNearEnough = 1.0 / 16;
 

@@ -35,9 +35,12 @@ struct CollapsedSurface {
 /// the level: the maps reach all of both. Boxes add up from map to map, so that ways there and back
 /// cancel out. What a collapse does not touch keeps its box.
 ///
-/// Nothing is asked of the collapses but that each vertex is removed once: where a vertex that is
-/// not finite is removed, moved or collapsed onto, and where a coordinate is too large, the largest
-/// float is the bound from there on.
+/// The maps bound both directions alike: the one-sided bound is the two-sided one.
+///
+/// Nothing is asked of the collapses but that each vertex is removed once and that one with
+/// triangles does not go to one that never had any. Where a vertex that is not finite is removed,
+/// moved or collapsed onto, and where a coordinate is too large, the largest float is the bound
+/// from there on.
 ///
 /// surface  pass it by moving: its lists are freed or worked in
 /// most     ends with the first level whose two-sided bound is larger
