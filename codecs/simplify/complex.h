@@ -88,10 +88,11 @@ struct alignas(16) VertexPoint {
 /// What concerns the vertex itself, on one cache line.
 struct alignas(64) VertexRecord {
   Quadric quadric;
-  float key = 0;              ///< in the queue
-  float attribute_error = 0;  ///< memoryless metric: constant term of what attributes demand
-  Index ring = 0;             ///< first of its corners in the pool
-  Index ring_size = 0;        ///< dead triangles included
+  float key = 0;          ///< in the queue
+  float extra_error = 0;  ///< memoryless metric: constant term of what attributes demand;
+                          ///< qem: what a large ring's point does not show yet
+  Index ring = 0;         ///< first of its corners in the pool
+  Index ring_size = 0;    ///< dead triangles included
   Index ring_capacity = 0;
   bool regular = false;  ///< each edge has two triangles of opposite direction
 };

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "codecs/simplify/collapse_loop.h"
 #include "codecs/simplify/complex.h"
@@ -29,6 +30,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kLengthShare = 1e-9f;
 constexpr float kCarriedShare = 1e-2f;
 constexpr float kForcedShare = 1;
+
+constexpr float kMostCost = std::numeric_limits<float>::max();
 
 // Guard checks of one large ring in a row.
 constexpr int kMostGuardChecks = 16;
@@ -187,11 +190,11 @@ void HalfEdgeSimplifier::weigh(Candidate& at, bool is_plain) const {
   at.quadric = at.star.measure();
   if (!memoryless_) {
     at.quadric = record.quadric;
-    at.constant = complex_.points[at.star.vertex].error;
+    at.constant = complex_.points[at.star.vertex].error + record.extra_error;
     return;
   }
   if (!is_plain) builder_.add_edges(at.star, at.quadric);
-  at.constant = record.attribute_error;
+  at.constant = record.extra_error;
   if (input_.attribute_count == 0) return;
   const float weight = at.quadric.weight;
   at.quadric.add(record.quadric, {});
@@ -279,8 +282,8 @@ const StarEdge* HalfEdgeSimplifier::choose(float limit) {
     StarEdge* const best = cheapest(now_);
     if (!best || best->cost == kInfinity) return nullptr;
     if (best->cost > limit) {
-      // A large ring comes up less often when its key is a little too high.
-      queue_->put(q, large ? best->cost * 1.25f : best->cost);
+      // A large ring comes up less often when its key is too high.
+      queue_->put(q, large ? std::min(2 * best->cost, kMostCost) : best->cost);
       return nullptr;
     }
     if (best->refused != Guard::none) return best;
@@ -321,8 +324,8 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
   }
   VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[p];
   if (memoryless_ && input_.attribute_count > 0)
-    to.attribute_error +=
-        from.attribute_error + from.quadric.at(offset) + wedges_->cost(now_.star, edge).at(offset);
+    to.extra_error +=
+        from.extra_error + from.quadric.at(offset) + wedges_->cost(now_.star, edge).at(offset);
   if (wedges_)
     wedges_->collapse(complex_, now_.star, p, offset, from.quadric, out_.moves);
   else
@@ -330,10 +333,16 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
   complex_.append(p, moved_);
   from.ring_size = 0;
   to.quadric.add(from.quadric, offset * -1);
-  // A history that is not in the quadric grows by each step's error.
-  complex_.points[p].error +=
-      memoryless_ ? complex_.points[q].error + std::max(edge.error - now_.constant, 0.f)
-                  : edge.error;
+  float& error = complex_.points[p].error;
+  if (memoryless_) {  // a history that is not in the quadric
+    error += complex_.points[q].error + std::max(edge.error - now_.constant, 0.f);
+  } else {
+    // What a large ring shows doubles at a time, or each collapse onto it would change the order of
+    // all its neighbours.
+    to.extra_error += edge.error;
+    if (to.ring_size <= kLargeRing || to.extra_error >= error)
+      error += std::exchange(to.extra_error, 0.f);
+  }
   count(out_.forced, edge.refused);
   if (edge.refused != Guard::none)
     for (const StarEdge& other : now_.star.edges) complex_.vertices[other.vertex].regular = false;
@@ -343,7 +352,8 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
 
 void HalfEdgeSimplifier::note_collapse(Index p, std::size_t first_move) {
   const float weight = complex_.vertices[p].quadric.weight;
-  const float mean = weight > 0 ? std::sqrt(complex_.points[p].error / weight) : 0;
+  const float sum = complex_.points[p].error + (memoryless_ ? 0 : complex_.vertices[p].extra_error);
+  const float mean = weight > 0 ? std::sqrt(sum / weight) : 0;
   const double error = mean / complex_.scale[0] / complex_.scale[1];
   last_error_ = std::max(
       last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
