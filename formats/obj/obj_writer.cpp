@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cstring>
 #include <set>
+#include <span>
 
+#include "core/equal_elements.h"
 #include "core/parallel.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/names.h"
@@ -35,13 +37,6 @@ void append_component(std::string& out, const Attribute& a, std::size_t i, std::
 /// no wedge has one.
 using TupleLines = std::vector<std::uint64_t>;
 
-constexpr std::uint64_t hash_of(ByteView bytes) {  // FNV-1a; collisions cost time, no more
-  std::uint64_t hash = 0xcbf2'9ce4'8422'2325;
-  for (const std::byte b : bytes)
-    hash = (hash ^ std::to_integer<std::uint64_t>(b)) * 0x100'0000'01b3;
-  return hash;
-}
-
 /// Appends lines 0 to count - 1, which line(out, i) makes, some runs of them on each thread.
 template <class Line>
 void append_lines(std::string& out, std::size_t count, unsigned threads, Line&& line) {
@@ -58,6 +53,10 @@ void append_lines(std::string& out, std::size_t count, unsigned threads, Line&& 
       text.clear();
       for (std::size_t i = begin; i < end; ++i) line(text, first + i);
     });
+    std::size_t bytes = 0;
+    for (std::size_t run = 0; run * kLines < lines; ++run) bytes += texts[run].size();
+    if (first == 0)  // the rest is about as long a line; pages that are not written cost nothing
+      out.reserve(out.size() + bytes / lines * count + bytes / lines * count / 4);
     for (std::size_t run = 0; run * kLines < lines; ++run) out += texts[run];
   }
 }
@@ -319,14 +318,25 @@ class ObjWriter {
     out += '\n';
   }
 
-  /// The bytes that tell two `vt` or `vn` lines apart.
-  static std::string tuple_key(const Plan& plan, const Attribute& a, Index w) {
-    std::string key(as_text(a.element(w)));
-    if (&a != plan.texcoord) return key;
-    if (plan.texw) key += as_text(plan.texw->element(w));
-    if (plan.present)
-      key += static_cast<char>(plan.present->data[w] & std::byte{kHasTexV | kHasTexW});
-    return key;
+  /// For each of the wedges the first of them with the same `vt` or `vn` line.
+  std::vector<Index> first_of_tuples(const Plan& plan, const Attribute& a,
+                                     std::span<const Index> wedges) const {
+    const bool texcoord = &a == plan.texcoord;
+    const Attribute* const texw = texcoord ? plan.texw : nullptr;
+    const bool has_present = texcoord && plan.present;
+    const std::size_t size =
+        a.element_bytes() + (texw ? texw->element_bytes() : 0) + (has_present ? 1 : 0);
+    Bytes table;  // what tells lines apart
+    table.reserve(size * wedges.size());
+    const auto append = [&](ByteView bytes) {
+      table.insert(table.end(), bytes.begin(), bytes.end());
+    };
+    for (const Index w : wedges) {
+      append(a.element(w));
+      if (texw) append(texw->element(w));
+      if (has_present) table.push_back(plan.present->data[w] & std::byte{kHasTexV | kHasTexW});
+    }
+    return first_equals(table, size, threads_);
   }
 
   /// Writes each distinct tuple once, in order of first use; a cloud's one for each vertex.
@@ -341,27 +351,14 @@ class ObjWriter {
       });
       return out;
     }
-    std::vector<std::pair<std::uint64_t, Index>> order;  // hash of the tuple, wedge
+    std::vector<Index> wedges;  // those with a tuple
     for (Index w = 0; w < mesh.wedge_count(); ++w)
-      if (plan.used[w] && has(plan, w, what))
-        order.emplace_back(hash_of(as_bytes(tuple_key(plan, *a, w))), w);
-    std::ranges::sort(order, [&](const auto& x, const auto& y) {
-      if (x.first != y.first) return x.first < y.first;
-      const int key = tuple_key(plan, *a, x.second).compare(tuple_key(plan, *a, y.second));
-      return key != 0 ? key < 0 : x.second < y.second;
-    });
-    std::vector<Index> first_of(mesh.wedge_count(), kNone);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const bool same =
-          i > 0 && order[i].first == order[i - 1].first &&
-          tuple_key(plan, *a, order[i].second) == tuple_key(plan, *a, order[i - 1].second);
-      first_of[order[i].second] = same ? first_of[order[i - 1].second] : order[i].second;
-    }
+      if (plan.used[w] && has(plan, w, what)) wedges.push_back(w);
+    const std::vector<Index> first = first_of_tuples(plan, *a, wedges);
     std::vector<Index> written;
-    for (Index w = 0; w < mesh.wedge_count(); ++w) {
-      if (first_of[w] == kNone) continue;
-      if (first_of[w] == w) written.push_back(w);
-      out[w] = first_of[w] == w ? count + written.size() : out[first_of[w]];
+    for (std::size_t i = 0; i < wedges.size(); ++i) {
+      if (first[i] == i) written.push_back(wedges[i]);
+      out[wedges[i]] = first[i] == i ? count + written.size() : out[wedges[first[i]]];
     }
     count += written.size();
     append_lines(out_, written.size(), threads_, [&](std::string& text, std::size_t i) {
