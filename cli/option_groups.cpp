@@ -53,7 +53,7 @@ void LevelOptions::add_to(CLI::App& app) {
   auto* triangles = app.add_option("--triangles", choice.triangles,
                                    "Refine as far as there are at most this many triangles");
   auto* error = app.add_option("--error", choice.error,
-                               "Refine until the distance estimate is at most this (model units)");
+                               "Refine until the error bound is at most this (model units)");
   packets->check(CLI::NonNegativeNumber)->excludes(triangles)->excludes(error);
   triangles->check(CLI::NonNegativeNumber)->excludes(error);
   error->check(CLI::NonNegativeNumber);

@@ -85,13 +85,13 @@ def add_levels(page):
                 return min((at[n, share]["rms"] for n in names if (n, share) in at), default=0)
 
             peer, exact = best(HALF_EDGE_PEERS), best(["cgal-lt"])
-            subset = best(["subset-qem", "subset-memoryless"])
-            optimal = best(["optimal-qem", "optimal-memoryless"])
+            subset = best(["subset-memoryless"])  # the default metric
+            optimal = best(["optimal-memoryless"])
             where = f"{model}, {share:.0%}"
-            if peer > 1e-8:
+            if peer > 0:
                 page.figure("levels", f"{where}: subset's RMS / best half-edge peer's",
                             subset / peer, 1)  # fmt: skip
-            if exact > 1e-8:
+            if exact > 0:
                 page.figure("levels", f"{where}: optimal's RMS / Lindstrom-Turk's",
                             optimal / exact, 1.05)  # fmt: skip
         if ("cgal-lt", 0.05) in at and at["cgal-lt", 0.05]["seconds"] > 0:
