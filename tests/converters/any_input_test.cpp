@@ -18,12 +18,6 @@
 namespace pstrip {
 namespace {
 
-Model model_of(Mesh mesh) {
-  Model model;
-  model.meshes.push_back(std::move(mesh));
-  return model;
-}
-
 // Bit patterns of floats that arithmetic would not leave as they are, or not survive.
 constexpr std::array<std::uint32_t, 10> kOddFloats = {0x7fc00000,   // NaN
                                                       0x7f800001,   // a signalling NaN
@@ -65,7 +59,7 @@ RC_GTEST_PROP(AnyInput, ComesBackWithEveryCombinationOfOptions, ()) {
   const auto vertices = *rc::gen::inRange<Index>(0, 50);
   const auto faces = *rc::gen::inRange<Index>(0, 90);
   const auto odd_floats = *rc::gen::inRange<Index>(0, 12);
-  const Model model = model_of(nasty_mesh(seed, vertices, faces, odd_floats));
+  const Model model = test::model_of(nasty_mesh(seed, vertices, faces, odd_floats));
   EncodeOptions options;
   options.packet_min = *rc::gen::inRange<Index>(1, 20);
   options.stripifier =
@@ -131,11 +125,11 @@ TEST_P(LargeInput, ComesBack) {
     EncodeOptions options;
     options.keep_order = true;
     options.placement = GetParam();
-    const auto strips = encode(model_of(row.mesh), options);
+    const auto strips = encode(test::model_of(row.mesh), options);
     ASSERT_TRUE(strips);
     EXPECT_LE(strips->bases[0].triangles, row.mesh.face_count() / 20) << "the base is reached";
     EXPECT_EQ(decode(*strips)->meshes[0], row.mesh);
-    EXPECT_EQ(test::round_trip(model_of(row.mesh), options, false), "");
+    EXPECT_EQ(test::round_trip(test::model_of(row.mesh), options, false), "");
   }
 }
 
@@ -149,7 +143,7 @@ TEST(AnyInput, VerticesThatAreNotFiniteStandInTheBaseUnmoved) {
     EncodeOptions options;
     options.base_share = 0;
     options.placement = placement;
-    const auto strips = encode(model_of(mesh), options);
+    const auto strips = encode(test::model_of(mesh), options);
     ASSERT_TRUE(strips);
     const Mesh base = decode(*strips, 0)->meshes[0];
     for (std::size_t i = 0; i < 5; ++i) {  // those before -0

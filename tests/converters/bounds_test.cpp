@@ -24,12 +24,6 @@ namespace {
 
 constexpr float kUnbounded = std::numeric_limits<float>::max();
 
-Model model_of(Mesh mesh) {
-  Model model;
-  model.meshes.push_back(std::move(mesh));
-  return model;
-}
-
 struct Shown {
   std::vector<double> positions;
   std::vector<Index> triangles;
@@ -108,7 +102,7 @@ RC_GTEST_PROP(Bounds, HoldForAnyMesh, ()) {
   options.packet_min = *rc::gen::inRange<Index>(1, 8);
   options.placement = *rc::gen::element(Placement::subset, Placement::free);
   options.metric = *rc::gen::element(Metric::qem, Metric::memoryless);
-  RC_ASSERT(broken_promise(encode(model_of(mesh), options).value(), 500) == "");
+  RC_ASSERT(broken_promise(encode(test::model_of(mesh), options).value(), 500) == "");
 }
 
 // Placements are rounded to what the file stores, which moves them by up to half a unit.
@@ -122,7 +116,7 @@ TEST(Bounds, HoldForIntegerPositions) {
       for (std::size_t k = 0; k < 3; ++k)
         set_component(mesh.position, v, k, std::round(8 * component(real, v, k)));
     for (const Placement placement : {Placement::subset, Placement::free})
-      EXPECT_EQ(broken_promise(encode(model_of(mesh),
+      EXPECT_EQ(broken_promise(encode(test::model_of(mesh),
                                       {.base_share = 0, .placement = placement, .packet_min = 10})
                                    .value(),
                                2000),
@@ -131,7 +125,7 @@ TEST(Bounds, HoldForIntegerPositions) {
 }
 
 TEST(Bounds, AreZeroAtFullResolutionOnly) {
-  const ProgressiveStrips strips = encode(model_of(test::torus(40, 30)), {}).value();
+  const ProgressiveStrips strips = encode(test::model_of(test::torus(40, 30)), {}).value();
   EXPECT_GT(strips.bases[0].one_sided_error, 0.01f);
   EXPECT_EQ(strips.packets.back().error, 0);
   EXPECT_EQ(strips.packets.back().one_sided_error, 0);
@@ -143,13 +137,13 @@ TEST(Bounds, DoNotCountVerticesThatAreNotDrawn) {
   const float far[3] = {1000, 0, 0};
   const ByteView bytes = std::as_bytes(std::span(far));
   mesh.position.data.insert(mesh.position.data.end(), bytes.begin(), bytes.end());
-  const ProgressiveStrips strips = encode(model_of(mesh), {.packet_min = 1}).value();
+  const ProgressiveStrips strips = encode(test::model_of(mesh), {.packet_min = 1}).value();
   EXPECT_LT(strips.bases[0].error, 10);
   EXPECT_EQ(broken_promise(strips, 2000), "");
 }
 
 TEST(Bounds, LimitTheBase) {
-  const Model model = model_of(test::torus(60, 40));
+  const Model model = test::model_of(test::torus(60, 40));
   Index triangles = 0;
   for (const double limit : {0.5, 0.1, 0.02, 1e-9}) {
     const ProgressiveStrips strips = encode(model, {.base_error = limit}).value();
@@ -162,7 +156,7 @@ TEST(Bounds, LimitTheBase) {
 }
 
 TEST(Bounds, DoNotDependOnThreads) {
-  const Model model = model_of(test::torus(60, 40));
+  const Model model = test::model_of(test::torus(60, 40));
   EXPECT_EQ(encode(model, {.threads = 1}).value(), encode(model, {.threads = 2}).value());
 }
 
@@ -174,7 +168,7 @@ TEST_P(ModelBounds, Hold) {
   for (const Placement placement : {Placement::subset, Placement::free}) {
     EncodeOptions options{.base_share = 0.01, .placement = placement, .packet_growth = 4};
     if (placement == Placement::free) options.metric = Metric::memoryless;
-    EXPECT_EQ(broken_promise(encode(model_of(*mesh), options).value(), 20'000), "");
+    EXPECT_EQ(broken_promise(encode(test::model_of(*mesh), options).value(), 20'000), "");
   }
 }
 

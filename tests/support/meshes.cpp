@@ -18,6 +18,12 @@ Bytes bytes_of(const std::vector<T>& values) {
 
 }  // namespace
 
+Model model_of(Mesh mesh) {
+  Model model;
+  model.meshes.push_back(std::move(mesh));
+  return model;
+}
+
 Mesh triangle_mesh(std::vector<float> positions, std::vector<Index> corners) {
   Mesh mesh;
   mesh.position.data = bytes_of(positions);

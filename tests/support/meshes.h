@@ -3,8 +3,12 @@
 #include <cstdint>
 
 #include "core/mesh.h"
+#include "core/scene.h"
 
 namespace pstrip::test {
+
+/// A model of one mesh, without a scene.
+Model model_of(Mesh mesh);
 
 /// A mesh of triangles over float positions, one wedge a vertex, one group.
 Mesh triangle_mesh(std::vector<float> positions, std::vector<Index> corners);

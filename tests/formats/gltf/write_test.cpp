@@ -12,12 +12,6 @@ namespace {
 
 using Triangle = std::array<std::array<float, 3>, 3>;
 
-Model model_of(Mesh mesh) {
-  Model model;
-  model.meshes.push_back(std::move(mesh));
-  return model;
-}
-
 Model read_back(const GltfFiles& files) {
   const auto model = read_gltf(files.main, test::among(files.others));
   EXPECT_TRUE(model) << model.error().message << ' ' << model.error().path;
@@ -50,7 +44,7 @@ TEST(WriteGltf, MeshesOfOtherFormatsKeepTheirTrianglesAndAttributes) {
   for (const Mesh& mesh : {test::grid(20), test::torus(7, 9), test::cube(false), test::cube(true)})
     for (const GltfWriteOptions& options : {GltfWriteOptions{}, GltfWriteOptions{.binary = false},
                                             GltfWriteOptions{.binary = false, .embed = true}}) {
-      const auto files = write_gltf(model_of(mesh), options);
+      const auto files = write_gltf(test::model_of(mesh), options);
       ASSERT_TRUE(files);
       EXPECT_TRUE(files->dropped.empty());
       EXPECT_EQ(files->others.size(), !options.binary && !options.embed ? 1u : 0u);
@@ -58,7 +52,7 @@ TEST(WriteGltf, MeshesOfOtherFormatsKeepTheirTrianglesAndAttributes) {
       ASSERT_EQ(model.meshes.size(), 1u);
       EXPECT_EQ(model.meshes[0].corners, mesh.corners);
       EXPECT_EQ(model.meshes[0].wedge_attributes, mesh.wedge_attributes);
-      EXPECT_EQ(triangles_of(model), triangles_of(model_of(mesh)));
+      EXPECT_EQ(triangles_of(model), triangles_of(test::model_of(mesh)));
       EXPECT_EQ(model.scene.nodes.size(), 1u);
     }
 }
@@ -67,11 +61,11 @@ TEST(WriteGltf, RandomSoupComesBackTheSameFromTheFirstReadingOn) {
   for (std::uint32_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const Mesh mesh = test::random_soup(seed, seed % 20, 3 * (seed % 30));
-    const auto files = write_gltf(model_of(mesh));
+    const auto files = write_gltf(test::model_of(mesh));
     ASSERT_TRUE(files);
     const Model once = read_back(*files);
     if (mesh.face_count() > 0) {
-      EXPECT_EQ(triangles_of(once), triangles_of(model_of(mesh)));
+      EXPECT_EQ(triangles_of(once), triangles_of(test::model_of(mesh)));
     }
     const Model twice = read_back(*write_gltf(once, {.binary = false}));
     EXPECT_TRUE(twice == once);
@@ -81,10 +75,10 @@ TEST(WriteGltf, RandomSoupComesBackTheSameFromTheFirstReadingOn) {
 TEST(WriteGltf, StripsShowTheSameTriangles) {
   for (const Mesh& mesh : {test::grid(9), test::torus(8, 5), test::cube(true)})
     for (const auto topology : {GltfTopology::strips, GltfTopology::joined_strips}) {
-      const auto files = write_gltf(model_of(mesh), {.topology = topology});
+      const auto files = write_gltf(test::model_of(mesh), {.topology = topology});
       ASSERT_TRUE(files);
       const Model model = read_back(*files);
-      EXPECT_EQ(triangles_of(model), triangles_of(model_of(mesh)));
+      EXPECT_EQ(triangles_of(model), triangles_of(test::model_of(mesh)));
       if (topology == GltfTopology::joined_strips) {
         EXPECT_EQ(model.meshes[0].groups.size(), 1u);
       }
@@ -100,18 +94,19 @@ TEST(WriteGltf, StripsKeepTheStripsOfTheFaceOrder) {
       const bool odd = i % 2 != 0;
       mesh.corners.insert(mesh.corners.end(), {strip[i + odd], strip[i + !odd], strip[i + 2]});
     }
-  const Model model = read_back(*write_gltf(model_of(mesh), {.topology = GltfTopology::strips}));
+  const Model model =
+      read_back(*write_gltf(test::model_of(mesh), {.topology = GltfTopology::strips}));
   EXPECT_EQ(model.meshes[0].groups.size(), strips.size());
   EXPECT_EQ(model.meshes[0].corners, mesh.corners);
 }
 
 TEST(WriteGltf, StripsSayWhichTrianglesTheyCannotShow) {
   const Mesh mesh = test::triangle_mesh({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2, 1, 1, 2});
-  const auto files = write_gltf(model_of(mesh), {.topology = GltfTopology::strips});
+  const auto files = write_gltf(test::model_of(mesh), {.topology = GltfTopology::strips});
   EXPECT_EQ(files->dropped,
             std::vector<std::string>{"1 degenerate triangles, which strips cannot show"});
   EXPECT_EQ(read_back(*files).meshes[0].face_count(), 1u);
-  EXPECT_TRUE(write_gltf(model_of(mesh))->dropped.empty());
+  EXPECT_TRUE(write_gltf(test::model_of(mesh))->dropped.empty());
 }
 
 TEST(WriteGltf, IndicesTakeTheSmallestTypeButNeverItsLargestValue) {
@@ -122,7 +117,7 @@ TEST(WriteGltf, IndicesTakeTheSmallestTypeButNeverItsLargestValue) {
   for (const auto& [largest, type] :
        {Case{2, 5121}, Case{254, 5121}, Case{255, 5123}, Case{65534, 5123}, Case{65535, 5125}}) {
     const Mesh mesh = test::triangle_mesh(std::vector<float>(3 * (largest + 1)), {0, 1, largest});
-    const std::string json = text_of(model_of(mesh));
+    const std::string json = text_of(test::model_of(mesh));
     for (const int t : {5121, 5123, 5125})
       EXPECT_EQ(json.find(std::to_string(t)) != std::string::npos, t == type) << largest;
   }
@@ -131,8 +126,8 @@ TEST(WriteGltf, IndicesTakeTheSmallestTypeButNeverItsLargestValue) {
 TEST(WriteGltf, BoundsAreThoseOfTheFiniteStoredNumbers) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  const std::string json =
-      text_of(model_of(test::triangle_mesh({0.1f, -2, nan, -inf, 3, nan, 4, 0, nan}, {0, 1, 2})));
+  const std::string json = text_of(
+      test::model_of(test::triangle_mesh({0.1f, -2, nan, -inf, 3, nan, 4, 0, nan}, {0, 1, 2})));
   const auto after = [&](const std::string& key) {
     std::string out = json.substr(json.find('"' + key + '"'));
     out = out.substr(0, out.find(']'));
@@ -156,7 +151,7 @@ TEST(WriteGltf, ConvertsWhatGltfDoesNotKnowAndSaysSo) {
   mesh.wedge_attributes.push_back({"wide", ComponentType::u8, 5, false, Bytes(20)});
   mesh.face_attributes.push_back({"flags", ComponentType::u8, 1, false, Bytes(1)});
   mesh.groups[0].name = "side";
-  const auto files = write_gltf(model_of(mesh));
+  const auto files = write_gltf(test::model_of(mesh));
   ASSERT_TRUE(files);
   const std::vector<std::string> expected = {
       "face attribute flags",
@@ -178,7 +173,8 @@ TEST(WriteGltf, ConvertsWhatGltfDoesNotKnowAndSaysSo) {
 }
 
 TEST(WriteGltf, VerticesAloneBecomePoints) {
-  const Model model = read_back(*write_gltf(model_of(test::triangle_mesh({0, 0, 0, 1, 2, 3}, {}))));
+  const Model model =
+      read_back(*write_gltf(test::model_of(test::triangle_mesh({0, 0, 0, 1, 2, 3}, {}))));
   EXPECT_EQ(model.meshes[0].groups[0].kind, FaceKind::points);
   EXPECT_EQ(model.meshes[0].vertex_count(), 2u);
 }
@@ -187,7 +183,7 @@ TEST(WriteGltf, LinesOfSeveralCornersAreCutWhenThereAreMany) {
   Mesh mesh = test::triangle_mesh(std::vector<float>(12), {0, 1, 2, 2, 3});
   mesh.groups[0].kind = FaceKind::lines;
   mesh.face_first = {0, 3, 5};
-  const auto files = write_gltf(model_of(mesh));
+  const auto files = write_gltf(test::model_of(mesh));
   EXPECT_EQ(files->dropped, std::vector<std::string>{"1 polylines, cut into segments"});
   EXPECT_EQ(read_back(*files).meshes[0].corners, (std::vector<Index>{0, 1, 1, 2, 2, 3}));
 }
