@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 /// What a shell script may rely on; listed in --help and in the README.
 enum ExitCode : int {
@@ -42,4 +42,4 @@ Command add_extract(CLI::App& root);
 Command add_compare(CLI::App& root);
 Command add_stripify(CLI::App& root);
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

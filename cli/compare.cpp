@@ -8,7 +8,7 @@
 #include "cli/option_groups.h"
 #include "cli/output.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 struct Options {
@@ -131,4 +131,4 @@ Command add_compare(CLI::App& root) {
   return {app, [options](Streams io) { return run(*options, io); }};
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

@@ -8,7 +8,7 @@
 #include "cli/output.h"
 #include "core/parallel.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 struct Options {
@@ -158,4 +158,4 @@ Command add_convert(CLI::App& root) {
   return {app, [options](Streams io) { return run(*options, io); }};
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

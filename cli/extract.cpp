@@ -8,7 +8,7 @@
 #include "cli/output.h"
 #include "converters/scene_level.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 struct Options {
@@ -70,4 +70,4 @@ Command add_extract(CLI::App& root) {
   return {app, [options](Streams io) { return run(*options, io); }};
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

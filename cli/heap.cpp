@@ -80,10 +80,10 @@ void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noe
   release(block);
 }
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 HeapPeak::HeapPeak() : start_(allocated.load()) { peak = start_; }
 
 std::size_t HeapPeak::bytes() const { return peak.load() - start_; }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

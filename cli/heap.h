@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 /// The largest number of bytes that stood allocated by operator new since it was made, beyond
 /// those that stood then; of the whole program, libraries included, all threads. One at a time.
@@ -15,4 +15,4 @@ class HeapPeak {
   std::size_t start_;
 };
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

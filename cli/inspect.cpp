@@ -11,10 +11,10 @@
 #include "cli/option_groups.h"
 #include "cli/output.h"
 #include "codecs/triangulate/triangulate.h"
-#include "formats/pstrip/chunks.h"
-#include "formats/pstrip/parts.h"
+#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/container/parts.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -35,7 +35,7 @@ struct PartGroup {
 const std::array<PartGroup, 8> kPartGroups = {{
     {"names_and_offsets",
      "names and offsets",
-     {Part::parents, Part::counts, Part::places, Part::carried}},
+     {Part::parents, Part::counts, Part::map_offsets, Part::reassigned}},
     {"positions", "positions", {Part::positions, Part::parent_positions}},
     {"wedges", "wedges", {Part::wedges}},
     {"base", "base", {Part::base_positions, Part::base_wedges, Part::base_map}},
@@ -174,7 +174,7 @@ void print_totals(std::ostream& out, const Report& r) {
     add("strips", f.strips);
     add("index-map entries", f.map_entries);
     add("vsplits", f.vsplits);
-    table.add({"places a vsplit (u)", fmt::format("{:.2f}", f.places_per_vsplit)});
+    table.add({"map offsets a vsplit (u)", fmt::format("{:.2f}", f.places_per_vsplit)});
   }
   if (r.materials) add("materials", r.materials);
   if (r.images) add("images", r.images);
@@ -312,4 +312,4 @@ Command add_inspect(CLI::App& root) {
   return {app, [options](Streams io) { return run(*options, io); }};
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

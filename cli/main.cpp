@@ -17,7 +17,7 @@ constexpr const char* kExitCodes =
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace pstrip::cli;
+  using namespace pstrips::cli;
   std::ios::sync_with_stdio(false);
   install_interrupt_handler();
   CLI::App app("Progressive strips: 3D models that sharpen while they arrive.", "pstrips");

@@ -10,7 +10,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 std::vector<std::string> split_list(std::string_view list) {
   std::vector<std::string> out;
@@ -80,7 +80,7 @@ void StripOptionsGroup::add_to(CLI::App& app) {
       ->group(kGroup);
   app.add_option("--strip-price", price,
                  "Indices that a strip counts for; higher gives fewer strips")
-      ->check(CLI::Range(0u, kMostStripPrice))
+      ->check(CLI::Range(0u, kMaxStripPrice))
       ->capture_default_str()
       ->group(kGroup);
   app.add_option("--strip-weight", weight, "What multi-path-weighted prefers")
@@ -144,7 +144,7 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
       ->group(kGroup);
   app.add_option("--level-cost", options.level_cost,
                  "Indices that a step counts for which tears a strip at coarser levels")
-      ->check(CLI::Range(0u, kMostLevelCost))
+      ->check(CLI::Range(0u, kMaxLevelCost))
       ->capture_default_str()
       ->group(kGroup);
   auto* share = app.add_option("--base", base, "Triangles of the base: N, or N% of the model")
@@ -194,11 +194,11 @@ Result<AttributeWeight> parse_weight(const std::string& text) {
 
 Result<EncodeOptions> EncodeOptionsGroup::get() const {
   EncodeOptions out = options;
-  out.encoding = strips == "naive" ? MapEncoding::naive : MapEncoding::offset_difference;
+  out.encoding = strips == "naive" ? MapEncoding::naive : MapEncoding::offset;
   const auto strip_options = stripping.get();
   if (!strip_options) return tl::unexpected(strip_options.error());
   out.strip_options = *strip_options;
-  out.placement = placement == "optimal" ? Placement::free : Placement::subset;
+  out.placement = placement == "optimal" ? Placement::optimal : Placement::subset;
   out.metric = metric == "memoryless" ? Metric::memoryless : Metric::qem;
   for (const std::string& text : attribute_weights) {
     auto weight = parse_weight(text);
@@ -236,4 +236,4 @@ Result<FileFormat> TargetOption::format_for(const std::string& path) const {
               path);
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

@@ -18,7 +18,7 @@ namespace CLI {
 class App;
 }
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 /// "a,,b" as a and b: an option's list.
 std::vector<std::string> split_list(std::string_view list);
@@ -93,4 +93,4 @@ struct TargetOption {
   Result<FileFormat> format_for(const std::string& path) const;
 };
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

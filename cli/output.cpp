@@ -11,7 +11,7 @@
 
 #include "core/file.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 constexpr std::array kInterrupts = {SIGINT, SIGTERM, SIGHUP};
@@ -194,4 +194,4 @@ void install_interrupt_handler() {
     if (std::signal(signal, end_cleanly) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

@@ -9,7 +9,7 @@
 #include "core/progress.h"
 #include "core/result.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 /// Text from files as a terminal may see it: control characters and broken UTF-8 become \xNN.
 std::string escaped(std::string_view text);
@@ -71,4 +71,4 @@ class ProgressBar {
 /// Makes Ctrl-C and SIGTERM remove temporary files before they end the program.
 void install_interrupt_handler();
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

@@ -9,7 +9,7 @@
 #include "codecs/stripify/delaunay.h"
 #include "converters/strip_mesh.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 Mesh in_order(const Mesh& mesh, const StripMap& map) {
@@ -139,4 +139,4 @@ StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stri
   return out;
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

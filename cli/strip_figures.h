@@ -7,7 +7,7 @@
 #include "core/mesh.h"
 #include "core/scene.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 /// What a stripifier made of a model, all meshes together.
 struct StripFigures {
@@ -36,4 +36,4 @@ StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
 StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
                                   const StripOptions& options, bool in_strip_order);
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

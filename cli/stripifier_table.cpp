@@ -13,7 +13,7 @@
 #include "converters/files.h"
 #include "peers/peers.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -87,10 +87,10 @@ StripFigures measure_once(Model& model, const Run& run, double time_limit) {
 // Short runs are repeated: the first one pays for cold caches.
 StripFigures measure(Model& model, const Run& run, double time_limit) {
   constexpr double kEnoughMilliseconds = 200;
-  constexpr int kMostRuns = 5;
+  constexpr int kMaxRuns = 5;
   StripFigures best = measure_once(model, run, time_limit);
   double spent = best.milliseconds;
-  for (int i = 1; i < kMostRuns && spent < kEnoughMilliseconds; ++i) {
+  for (int i = 1; i < kMaxRuns && spent < kEnoughMilliseconds; ++i) {
     const StripFigures again = measure_once(model, run, time_limit);
     spent += again.milliseconds;
     best.milliseconds = std::min(best.milliseconds, again.milliseconds);
@@ -247,4 +247,4 @@ ExitCode compare_stripifiers(const ComparisonOptions& options, const Streams& io
   return worst;
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

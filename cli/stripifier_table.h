@@ -7,7 +7,7 @@
 #include "codecs/stripify/stripify.h"
 #include "core/limits.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 /// `pstrips stripify --compare`: every algorithm on every model.
 struct ComparisonOptions {
@@ -23,4 +23,4 @@ struct ComparisonOptions {
 /// first one's.
 ExitCode compare_stripifiers(const ComparisonOptions& options, const Streams& io);
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

@@ -16,7 +16,7 @@
 #include "codecs/stripify/delaunay.h"
 #include "converters/capacity.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 struct Options {
@@ -217,4 +217,4 @@ Command add_stripify(CLI::App& root) {
   return {app, [options](Streams io) { return run(*options, io); }};
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

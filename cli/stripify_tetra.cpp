@@ -11,7 +11,7 @@
 #include "converters/files.h"
 #include "formats/medit/medit.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 struct Figures {
@@ -86,4 +86,4 @@ ExitCode stripify_tetra(const FileBytes& file, const TetraJob& job, const Stream
   return kOk;
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

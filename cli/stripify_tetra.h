@@ -7,7 +7,7 @@
 #include "core/file.h"
 #include "core/limits.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 
 struct TetraJob {
   std::string input;
@@ -23,4 +23,4 @@ ExitCode stripify_tetra(const FileBytes& file, const TetraJob& job, const Stream
 /// The one algorithm for tetrahedra.
 inline constexpr std::string_view kTetraStripifier = "tetra-multi-path";
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

@@ -12,7 +12,7 @@
 #include "core/file.h"
 #include "validators/rules.h"
 
-namespace pstrip::cli {
+namespace pstrips::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -162,4 +162,4 @@ Command add_validate(CLI::App& root) {
   return {app, [options](Streams io) { return run(*options, io); }};
 }
 
-}  // namespace pstrip::cli
+}  // namespace pstrips::cli

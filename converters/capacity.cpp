@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 // Fitted to peaks of the whole program, free placement with the memoryless metric, in bytes a
@@ -50,4 +50,4 @@ Result<void> check_stripping_capacity(const WorkSize& size, std::uint64_t memory
   return check(size, stripping_bytes(size), "bytes of memory to stripify", memory_bytes);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

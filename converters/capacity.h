@@ -6,7 +6,7 @@
 #include "core/mesh.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// How much work a mesh is.
 struct WorkSize {
@@ -33,4 +33,4 @@ std::uint64_t stripping_bytes(const WorkSize& size);
 /// The same question for stripifying a mesh.
 Result<void> check_stripping_capacity(const WorkSize& size, std::uint64_t memory_bytes);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -10,7 +10,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "converters/merge.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 using Ids = std::vector<Index>;
@@ -315,4 +315,4 @@ Comparison compare(const Model& a, const Model& b, std::size_t samples) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -6,7 +6,7 @@
 
 #include "core/scene.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 enum class Likeness : std::uint8_t {
   exact,      ///< the same vertices, wedges and faces in the same order, every value equal
@@ -43,4 +43,4 @@ struct Comparison {
 /// cost     O(n log n); deterministic
 Comparison compare(const Model& a, const Model& b, std::size_t samples = 200'000);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -4,7 +4,7 @@
 
 #include "converters/scene_level.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 std::vector<Index> vsplits_after(const ProgressiveStrips& strips, std::size_t packets) {
@@ -21,11 +21,11 @@ tl::unexpected<Error> failed_mesh(Error error, std::size_t mesh) {
 
 // What the first packets of a mesh leave of its arrays.
 void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
-  std::size_t wedges = 0, carried = 0, places = 0;
+  std::size_t wedges = 0, reassigned = 0, map_offsets = 0;
   for (Index i = 0; i < vsplits; ++i) {
     wedges += mesh.single_wedges ? 1 : mesh.vsplits[i].wedges;
-    carried += mesh.vsplits[i].carried;
-    places += mesh.vsplits[i].places;
+    reassigned += mesh.vsplits[i].reassigned;
+    map_offsets += mesh.vsplits[i].map_offsets;
   }
   mesh.vsplits.resize(vsplits);
   mesh.vertices = mesh.base_vertices + vsplits;
@@ -34,11 +34,11 @@ void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
   mesh.strips = last.strips;
   mesh.position.data.resize(mesh.position.element_bytes() * mesh.vertices);
   for (Attribute& a : mesh.wedge_attributes) a.data.resize(a.element_bytes() * mesh.wedges);
-  if (mesh.placement == Placement::free)
+  if (mesh.placement == Placement::optimal)
     mesh.parent_position.resize(mesh.position.element_bytes() * vsplits);
-  mesh.wedge_places.resize(wedges);
-  mesh.carried.resize(carried);
-  mesh.places.resize(places);
+  mesh.wedge_offset_counts.resize(wedges);
+  mesh.reassigned.resize(reassigned);
+  mesh.map_offsets.resize(map_offsets);
   mesh.faces = {};
   mesh.face_attribute_formats = {};
   mesh.order = {};
@@ -103,9 +103,9 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets) {
     level.forget_symbols();
     progressive.base_map = {};
     progressive.vsplits = {};
-    progressive.wedge_places = {};
-    progressive.places = {};
-    progressive.carried = {};
+    progressive.wedge_offset_counts = {};
+    progressive.map_offsets = {};
+    progressive.reassigned = {};
     Result<Mesh> mesh = decoded_mesh(level);
     if (!mesh) return failed_mesh(mesh.error(), m);
     model.meshes.push_back(std::move(mesh).value());
@@ -133,4 +133,4 @@ ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

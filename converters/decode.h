@@ -5,7 +5,7 @@
 #include "codecs/vsplit/level.h"
 #include "core/progressive_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// How far to refine; the first limit that is set decides.
 struct LevelChoice {
@@ -40,4 +40,4 @@ Result<Mesh> decoded_mesh(const Level& level);
 /// full resolution only (order, face table, digest) is left out of the meshes that are cut.
 ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

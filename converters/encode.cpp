@@ -19,10 +19,10 @@
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
 #include "core/parallel.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/digest.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 // How much a difference of an attribute counts against a displacement, as a share of the
@@ -304,7 +304,7 @@ class Encoder {
     vertices.reserve(triangles.corners.size());
     for (const Index wedge : triangles.corners) vertices.push_back(mesh.vertex_of(wedge));
     return level_step_cost(vertices, mesh.vertex_count(), sequence.collapses,
-                           static_cast<std::uint8_t>(std::min(options_.level_cost, kMostLevelCost)),
+                           static_cast<std::uint8_t>(std::min(options_.level_cost, kMaxLevelCost)),
                            threads);
   }
 
@@ -433,4 +433,4 @@ void keep_attributes(Model& model, const std::vector<std::string>& semantics) {
   }
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

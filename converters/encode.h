@@ -12,7 +12,7 @@
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// What a full swing of an attribute costs, as a share of the bounding-box diagonal by which a
 /// surface would have to be off: of UVs and colours their range, of normals the unit length. 0: it
@@ -22,16 +22,16 @@ struct AttributeWeight {
   double weight = 0;     ///< from 0 to 1e6
 };
 
-inline constexpr std::uint32_t kMostLevelCost = 100;
+inline constexpr std::uint32_t kMaxLevelCost = 100;
 
 struct EncodeOptions {
-  MapEncoding encoding = MapEncoding::offset_difference;
+  MapEncoding encoding = MapEncoding::offset;
   std::string stripifier = "best";  ///< a name of stripifiers()
   StripOptions strip_options{};     ///< `stop` may be asked by several threads at once
   /// What a step counts for, in indices, that tears its strip at coarser levels; see
   /// level_step_cost(). Of the stripifiers, `best` looks at it. 1 is free: files get no larger.
   /// More shortens the strips of coarse levels and lengthens the file; 0 looks at the full mesh
-  /// alone. At most kMostLevelCost.
+  /// alone. At most kMaxLevelCost.
   std::uint32_t level_cost = 1;
   double base_share = 0.05;                       ///< of each mesh's triangles that the base keeps
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
@@ -83,4 +83,4 @@ Result<ProgressiveStrips> encode_with(const Model& model,
 /// same of the same vertex become one. POSITION always stays.
 void keep_attributes(Model& model, const std::vector<std::string>& semantics);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -11,12 +11,12 @@
 #include "formats/medit/medit.h"
 #include "formats/obj/obj.h"
 #include "formats/ply/ply.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/text.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/text/text.h"
+#include "formats/pstrip/xml/xml.h"
 #include "formats/xyz/xyz.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 constexpr std::array<std::string_view, 8> kNames = {"ply", "obj",    "gltf",    "glb",
@@ -300,4 +300,4 @@ Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path
   return write(std::move(files), std::move(notes));
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

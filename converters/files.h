@@ -15,7 +15,7 @@
 #include "core/scene.h"
 #include "core/tetra.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 enum class FileFormat : std::uint8_t { ply, obj, gltf, glb, xyz, pstrip, pstripx, pm };
 
@@ -86,4 +86,4 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
 Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path,
                         FileFormat format);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -4,9 +4,9 @@
 
 #include "codecs/filter/display_level.h"
 #include "converters/scene_level.h"
-#include "formats/pstrip/check.h"
+#include "formats/pstrip/payload/check.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 std::string strip_length_bin(std::size_t bin) {
   if (bin == 0) return "3";
   const std::uint64_t low = std::uint64_t{2} << bin;
@@ -24,7 +24,7 @@ Inspection inspect(const ProgressiveStrips& strips, const std::vector<std::uint6
     out.strips += mesh.strips;
     out.vsplits += mesh.vsplits.size();
     out.map_entries += mesh.base_map.size();
-    out.places += mesh.places.size();
+    out.map_offsets += mesh.map_offsets.size();
     levels.emplace_back(mesh, append_degenerate_free_scan);
     for (const StripRange& range : strip_ranges(mesh.base_map)) {
       const Index entries = range.end - range.first;
@@ -36,7 +36,7 @@ Inspection inspect(const ProgressiveStrips& strips, const std::vector<std::uint6
     }
   }
   if (out.vsplits > 0)
-    out.places_per_vsplit = static_cast<double>(out.places) / static_cast<double>(out.vsplits);
+    out.places_per_vsplit = static_cast<double>(out.map_offsets) / static_cast<double>(out.vsplits);
 
   SceneLevel scene(strips);
   InspectedLevel row;
@@ -65,4 +65,4 @@ Inspection inspect(const ProgressiveStrips& strips, const std::vector<std::uint6
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -8,7 +8,7 @@
 
 #include "core/progressive_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// What a progressive file shows after one of its packets, all meshes together.
 struct InspectedLevel {
@@ -24,7 +24,7 @@ struct InspectedLevel {
 /// What a progressive file holds and what it costs.
 struct Inspection {
   std::uint64_t vertices = 0, wedges = 0, triangles = 0, faces = 0, strips = 0, vsplits = 0;
-  std::uint64_t map_entries = 0, places = 0;
+  std::uint64_t map_entries = 0, map_offsets = 0;
   double places_per_vsplit = 0;  ///< u of [Kim04 §5]
   std::vector<InspectedLevel> levels;
   /// Strips by the number of their map entries: 3, 4 to 7, 8 to 15, 16 to 31 …
@@ -41,4 +41,4 @@ Inspection inspect(const ProgressiveStrips& strips,
 /// "3", "4-7", "8-15" … for the bins of Inspection::strip_lengths.
 std::string strip_length_bin(std::size_t bin);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

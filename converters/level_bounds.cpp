@@ -4,7 +4,7 @@
 #include <cassert>
 #include <numeric>
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 std::vector<Index> corner_vertices(const Mesh& mesh, const Triangulation& triangles) {
@@ -79,4 +79,4 @@ void cut_back(const Mesh& mesh, const Triangulation& triangles, double most,
   sequence.stop = SimplifyStop::max_error;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

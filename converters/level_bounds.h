@@ -8,7 +8,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// error_bounds() of a mesh, with placements rounded as files store them.
 std::vector<ErrorBounds> level_bounds(const Mesh& mesh, const Triangulation& triangles,
@@ -20,4 +20,4 @@ std::vector<ErrorBounds> level_bounds(const Mesh& mesh, const Triangulation& tri
 void cut_back(const Mesh& mesh, const Triangulation& triangles, double most,
               CollapseSequence& sequence, std::vector<ErrorBounds>& bounds);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -5,7 +5,7 @@
 
 #include "core/parallel.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 // Which vertices have become one, and when: sets that are joined by size, so that no vertex is more
@@ -76,4 +76,4 @@ std::vector<std::uint8_t> level_step_cost(std::span<const Index> triangles, Inde
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -7,7 +7,7 @@
 #include "codecs/simplify/simplify.h"
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// What strips at full resolution should pay for falling apart at coarser levels, as
 /// StripInput::step_cost.
@@ -27,4 +27,4 @@ std::vector<std::uint8_t> level_step_cost(std::span<const Index> triangles, Inde
                                           std::span<const Collapse> collapses, std::uint8_t cost,
                                           unsigned threads = 1);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

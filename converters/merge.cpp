@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 const Attribute* same_in(const Mesh& mesh, const Attribute& wanted) {
@@ -71,4 +71,4 @@ Model merge_meshes(const Model& model, std::vector<std::string>& notes) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 using Matrix = std::array<double, 9>;  // 3 × 3, column-major
@@ -108,4 +108,4 @@ double SceneLevel::scaled_error(const Packet& packet, double scale, float Packet
   return error >= 0 ? error : 0;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -7,7 +7,7 @@
 
 #include "core/progressive_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// By how much each mesh is enlarged where it stands largest: over its instances, the largest
 /// singular value of what the matrices of the node and its ancestors make together (translation and
@@ -54,4 +54,4 @@ class SceneLevel {
   std::uint64_t vertices_ = 0, triangles_ = 0, strips_ = 0;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -4,7 +4,7 @@
 
 #include "converters/decode.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 StreamDecoder::StreamDecoder(const Limits& limits, std::string_view filter) : parser_(limits) {
   const NamedFilter* named = find_display_filter(filter);
@@ -50,4 +50,4 @@ Result<Model> StreamDecoder::model() const {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -9,9 +9,9 @@
 #include "converters/scene_level.h"
 #include "core/limits.h"
 #include "core/scene.h"
-#include "formats/pstrip/binary.h"
+#include "formats/pstrip/container/binary.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// Decodes a binary progressive file while it arrives: feed bytes, show the level reached.
 ///
@@ -65,4 +65,4 @@ class StreamDecoder {
   std::size_t packets_ = 0;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 // The faces of one group, with wedge numbers of its own, so that a stripifier's arrays are as large
@@ -173,4 +173,4 @@ StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
       [&](const GroupFaces& group) { return stripifier.run_polygons(group.polygons(), options); });
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

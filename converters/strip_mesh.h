@@ -4,7 +4,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "codecs/vsplit/record.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// Runs a stripifier on the triangles of each group of a mesh and joins the strips into one index
 /// map. Every strip but the last of the map is followed by a restart, which counts as its group's.
@@ -27,4 +27,4 @@ StripFaces strippable_faces(const Mesh& mesh);
 StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
                      const StripOptions& options = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline converters {
 namespace {
 
 // The triangles while they collapse. Dead corners stay in the lists: they do no harm, since a
@@ -92,4 +92,4 @@ CollapseSequence collapses_of(const TextProgressive& text) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

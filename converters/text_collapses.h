@@ -1,9 +1,9 @@
 #pragma once
 
 #include "codecs/simplify/simplify.h"
-#include "formats/pstrip/text.h"
+#include "formats/pstrip/text/text.h"
 
-namespace pstrip {
+namespace pstrips::inline converters {
 
 /// The collapses of a text file with what becomes of each wedge, as record() takes them: wedges of
 /// a removed triangle map to the other wedge on its edge (first triangle wins), others are
@@ -14,4 +14,4 @@ namespace pstrip {
 /// cost  O(n log n): of two vertices' triangle lists the shorter is moved
 CollapseSequence collapses_of(const TextProgressive& text);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline converters

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 std::uint32_t ByteReader::count(std::size_t min_bytes_each) {
   assert(min_bytes_each > 0);
@@ -34,4 +34,4 @@ void ByteReader::align(std::size_t alignment) {
     fail(ErrorCode::corrupt, "padding is not zero");
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

@@ -13,7 +13,7 @@
 
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 // Arrays are copied between files and memory as they are.
 static_assert(std::endian::native == std::endian::little, "pstrip needs a little-endian host");
@@ -141,4 +141,4 @@ class ByteWriter {
   Bytes bytes_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 namespace {
 
 struct HashedElement {
@@ -86,4 +86,4 @@ std::vector<Index> first_equals(ByteView table, std::size_t size, unsigned threa
   return first;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

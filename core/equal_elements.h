@@ -6,7 +6,7 @@
 #include "core/bytes.h"
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// For each element of a table the first one with the same bytes.
 ///
@@ -15,4 +15,4 @@ namespace pstrip {
 /// deterministic
 std::vector<Index> first_equals(ByteView table, std::size_t element_bytes, unsigned threads);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

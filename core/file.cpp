@@ -16,7 +16,7 @@
 
 #include "core/limits.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 namespace {
 
 tl::unexpected<Error> io_error(const std::filesystem::path& path, const char* doing) {
@@ -230,4 +230,4 @@ void remove_temporary_files() noexcept {
     if (temporary_used[slot]) ::unlink(temporary_names[slot].data());
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

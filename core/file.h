@@ -9,7 +9,7 @@
 #include "core/bytes.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// The bytes of a file, mapped where the system can and read otherwise. Moves, does not copy; the
 /// view stays valid as long as the object.
@@ -59,4 +59,4 @@ Result<void> write_files(const std::vector<OutputFile>& files);
 /// Removes the temporary files of a write_files() under way; safe to call from a signal handler.
 void remove_temporary_files() noexcept;
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

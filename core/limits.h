@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// What a reader accepts from untrusted input. Every reader and decoder takes one; a count that
 /// exceeds a limit is answered with ErrorCode::over_limit before anything is allocated for it.
@@ -27,4 +27,4 @@ inline std::string over_limit_message(std::uint64_t figure, std::string_view wha
          std::to_string(limit);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

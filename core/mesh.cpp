@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-namespace pstrip {
+namespace pstrips::inline core {
 namespace {
 
 template <class T>
@@ -41,11 +41,11 @@ double load(ComponentType type, const std::byte* at) {
 template <class T>
 void store(std::byte* at, double value) {
   if constexpr (std::is_integral_v<T>) {
-    constexpr double kLeast = std::numeric_limits<T>::min(), kMost = std::numeric_limits<T>::max();
-    value = std::isnan(value) ? 0 : std::clamp(std::nearbyint(value), kLeast, kMost);
+    constexpr double kLeast = std::numeric_limits<T>::min(), kMax = std::numeric_limits<T>::max();
+    value = std::isnan(value) ? 0 : std::clamp(std::nearbyint(value), kLeast, kMax);
   } else if constexpr (std::is_same_v<T, float>) {
-    constexpr double kMost = std::numeric_limits<float>::max();
-    if (std::isfinite(value)) value = std::clamp(value, -kMost, kMost);
+    constexpr double kMax = std::numeric_limits<float>::max();
+    if (std::isfinite(value)) value = std::clamp(value, -kMax, kMax);
   }
   const T stored = static_cast<T>(value);
   std::memcpy(at, &stored, sizeof stored);
@@ -185,4 +185,4 @@ std::vector<double> positions_as_double(const Mesh& mesh) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

@@ -10,7 +10,7 @@
 
 #include "core/bytes.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 using Index = std::uint32_t;
 inline constexpr Index kNone = 0xffff'ffff;
@@ -118,4 +118,4 @@ std::string find_inconsistency(const Mesh& mesh);
 /// Positions as doubles, three a vertex; missing components are 0.
 std::vector<double> positions_as_double(const Mesh& mesh);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// White space as text files have it, line ends included.
 constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -21,4 +21,4 @@ bool parse_number(std::string_view token, T& value) {
   return error == std::errc() && stop == end;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

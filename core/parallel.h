@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// How many threads to work with: `wanted`, or for 0 as many as the machine has cores.
 inline unsigned thread_count(unsigned wanted) {
@@ -58,4 +58,4 @@ void parallel_invoke(unsigned threads, Functions&&... functions) {
   });
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

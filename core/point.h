@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 using Point = std::array<double, 3>;
 
@@ -16,4 +16,4 @@ inline double dot(const Point& a, const Point& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

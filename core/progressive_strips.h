@@ -7,25 +7,25 @@
 #include "core/scene.h"
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 enum class MapEncoding : std::uint8_t {
-  naive = 0,              ///< every entry is a wedge or a restart [Kim04 §3.2]
-  offset_difference = 1,  ///< entries may be symbols [Kim04 §3.3]
+  naive = 0,   ///< every entry is a wedge or a restart [Kim04 §3.2]
+  offset = 1,  ///< entries may be symbols [Kim04 §3.3]
 };
 
 enum class Placement : std::uint8_t {
-  subset = 0,  ///< half-edge collapses: the parent stays where it is
-  free = 1,    ///< each vsplit moves its parent too [Skabek11 §3.3]
+  subset = 0,   ///< half-edge collapses: the parent stays where it is
+  optimal = 1,  ///< each vsplit moves its parent too [Skabek11 §3.3]
 };
 
 /// One refinement step. The new vertex takes the next free index, as do its new wedges.
 /// [Kim04 §3.2 eq. 2; spec/vsplit.md]
 struct Vsplit {
-  Index parent;   ///< vertex that is split, or the new vertex's own index: it appears on its own
-  Index wedges;   ///< how many new wedges the new vertex brings
-  Index carried;  ///< how many wedges it takes over from the parent
-  Index places;   ///< how many index-map entries are rewritten, over all new wedges
+  Index parent;      ///< vertex that is split, or the new vertex's own index: it appears on its own
+  Index wedges;      ///< how many new wedges the new vertex brings
+  Index reassigned;  ///< how many wedges it takes over from the parent
+  Index map_offsets;  ///< how many index-map entries are rewritten, over all new wedges
   friend bool operator==(const Vsplit&, const Vsplit&) = default;
 };
 
@@ -82,9 +82,9 @@ struct ProgressiveMesh {
   std::vector<Vsplit> vsplits;
   Bytes parent_position;  ///< with free placement: the parent's position after each split
   /// Per new wedge, with single wedges too: how many entries it is written to.
-  std::vector<Index> wedge_places;
-  std::vector<Index> places;   ///< map offsets, ascending within a wedge
-  std::vector<Index> carried;  ///< wedges taken over
+  std::vector<Index> wedge_offset_counts;
+  std::vector<Index> map_offsets;  ///< map offsets, ascending within a wedge
+  std::vector<Index> reassigned;   ///< wedges taken over
 
   // At full resolution.
   Index vertices = 0, wedges = 0, triangles = 0, strips = 0;
@@ -132,4 +132,4 @@ struct ProgressiveStrips {
   friend bool operator==(const ProgressiveStrips&, const ProgressiveStrips&) = default;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

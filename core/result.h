@@ -5,7 +5,9 @@
 #include <tl/expected.hpp>
 #include <utility>
 
-namespace pstrip {
+#include "core/fault.h"
+
+namespace pstrips::inline core {
 
 /// What kind of answer an error is. Truncated, corrupt and over_limit are three different answers
 /// to untrusted bytes: "more bytes may mend it", "no bytes will", "it may be fine, we refuse it".
@@ -27,6 +29,7 @@ struct Error {
   std::string message;               ///< a fixed phrase in lower case, no trailing full stop
   std::uint64_t offset = kNoOffset;  ///< byte offset into the input, where one is known
   std::string path = {};             ///< line ("line 12"), element path, JSON pointer or file name
+  Fault fault = Fault::none;         ///< the demand that is broken, where the reader knows it
   friend bool operator==(const Error&, const Error&) = default;
 };
 
@@ -39,4 +42,4 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string message,
   return tl::unexpected<Error>(Error{code, std::move(message), offset, std::move(path)});
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

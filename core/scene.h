@@ -6,7 +6,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// A texture image, embedded or named.
 struct Image {
@@ -63,4 +63,4 @@ struct Model {
   friend bool operator==(const Model&, const Model&) = default;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

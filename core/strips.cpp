@@ -1,6 +1,6 @@
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 Result<std::vector<Index>> resolve(std::span<const Index> map) {
   std::vector<Index> out(map.begin(), map.end());
@@ -28,4 +28,4 @@ Result<std::vector<Index>> resolve(std::span<const Index> map) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

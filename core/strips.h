@@ -6,7 +6,7 @@
 #include "core/mesh.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 // The index map: strips of wedges one after the other, parted by kRestart. An entry of the
 // offset-difference encoding may instead be one of four symbols, "the same wedge as the entry at
@@ -64,4 +64,4 @@ void for_each_triangle(std::span<const Index> resolved, VertexOf&& vertex_of, Vi
   }
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

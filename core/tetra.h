@@ -8,7 +8,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// Tetrahedra over points; (b - a) × (c - a) · (d - a) > 0 where abcd is not turned over.
 struct TetraMesh {
@@ -62,4 +62,4 @@ void for_each_tetra(const TetraStrips& strips, Visit&& visit) {
   }
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

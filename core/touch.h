@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pstrip {
+namespace pstrips::inline core {
 
 /// Reads a value only to have it in the cache.
 ///
@@ -12,4 +12,4 @@ inline void touch(const T& value) {
   asm volatile("" : : "r"(value));
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline core

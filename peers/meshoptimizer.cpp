@@ -3,7 +3,7 @@
 #include "core/strips.h"
 #include "peers/adapters.h"
 
-namespace pstrip {
+namespace pstrips {
 
 Strips meshoptimizer_strips(const StripInput& input, const StripOptions&) {
   std::vector<Index> ordered(input.triangles.size());
@@ -15,4 +15,4 @@ Strips meshoptimizer_strips(const StripInput& input, const StripOptions&) {
   return strips;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips

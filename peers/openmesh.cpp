@@ -4,7 +4,7 @@
 #include "core/strips.h"
 #include "peers/adapters.h"
 
-namespace pstrip {
+namespace pstrips {
 
 Strips openmesh_strips(const StripInput& input, const StripOptions&) {
   using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
@@ -27,4 +27,4 @@ Strips openmesh_strips(const StripInput& input, const StripOptions&) {
   return strips;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips

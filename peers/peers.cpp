@@ -2,7 +2,7 @@
 
 #include "peers/adapters.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr NamedStripifier kPeers[] = {
@@ -26,4 +26,4 @@ std::span<const NamedStripifier> peer_stripifiers() {
   return std::span(kPeers).first(std::size(kPeers) - 1);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips

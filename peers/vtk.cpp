@@ -9,7 +9,7 @@
 #include "core/strips.h"
 #include "peers/adapters.h"
 
-namespace pstrip {
+namespace pstrips {
 
 Strips vtk_strips(const StripInput& input, const StripOptions&) {
   vtkNew<vtkPoints> points;
@@ -43,4 +43,4 @@ Strips vtk_strips(const StripInput& input, const StripOptions&) {
   return strips;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips

@@ -25,11 +25,11 @@ THIRD_PARTY = {
     "fmt/": {"cli"},
     "meshoptimizer.h": {"peers"},
     "nlohmann/": {"cli", "formats/gltf"},
-    "openssl/": {"formats/pstrip"},
+    "openssl/": {"formats/pstrip/payload"},
     "tiny_gltf.h": {"formats/gltf"},
-    "tinyxml2.h": {"formats/pstrip"},
+    "tinyxml2.h": {"formats/pstrip/xml"},
     **{f"vtk{name}.h": {"peers"} for name in ("CellArray", "New", "Points", "PolyData", "Stripper")},
-    "zlib.h": {"formats/pstrip"},
+    "zlib.h": {"formats/pstrip/container"},
 }
 # Headers that cannot do without.
 IN_HEADERS = {("core/result.h", "tl/")}

@@ -2,7 +2,7 @@
 
 #include "validators/rules.h"
 
-namespace pstrip::checks {
+namespace pstrips::inline validators::checks {
 
 // What the rules of the table ask. What each demands is the sentence of its row.
 
@@ -36,4 +36,4 @@ Check order_vertices, order_wedges, order_faces, rotations, digest_matches;
 // checks_scene.cpp
 Check node_parents, node_meshes, material_images, images_there, foreign_keys_differ;
 
-}  // namespace pstrip::checks
+}  // namespace pstrips::inline validators::checks

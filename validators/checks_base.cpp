@@ -2,7 +2,7 @@
 
 #include "validators/checks.h"
 
-namespace pstrip::checks {
+namespace pstrips::inline validators::checks {
 namespace {
 
 /// Visits the meshes whose base is there.
@@ -47,7 +47,7 @@ void map_wedges_exist(const Document& doc, Findings& out) {
 
 void symbols_allowed(const Document& doc, Findings& out) {
   for_each_base(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    if (mesh.encoding == MapEncoding::offset_difference) return;
+    if (mesh.encoding == MapEncoding::offset) return;
     const auto found = std::ranges::find_if(mesh.base_map, is_symbol);
     if (found != mesh.base_map.end())
       out.add(in_map(m, static_cast<std::size_t>(found - mesh.base_map.begin())));
@@ -81,4 +81,4 @@ void only_polygons_have_strips(const Document& doc, Findings& out) {
   });
 }
 
-}  // namespace pstrip::checks
+}  // namespace pstrips::inline validators::checks

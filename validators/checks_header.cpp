@@ -4,7 +4,7 @@
 
 #include "validators/checks.h"
 
-namespace pstrip::checks {
+namespace pstrips::inline validators::checks {
 namespace {
 
 using layout::MeshCounts;
@@ -174,13 +174,13 @@ void strips_fit_map(const Document& doc, Findings& out) {
 }
 
 void few_attributes(const Document& doc, Findings& out) {
-  constexpr std::size_t kMost = 1024;
+  constexpr std::size_t kMax = 1024;
   for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
     const ProgressiveMesh& mesh = doc.strips.meshes[m];
     const Where where{.field = Field::mesh, .mesh = m};
-    if (mesh.wedge_attributes.size() > kMost)
+    if (mesh.wedge_attributes.size() > kMax)
       out.add(where, std::to_string(mesh.wedge_attributes.size()));
-    if (mesh.face_attribute_formats.size() > kMost)
+    if (mesh.face_attribute_formats.size() > kMax)
       out.add(where, std::to_string(mesh.face_attribute_formats.size()));
   }
 }
@@ -193,7 +193,7 @@ void mesh_wedges_come(const Document& doc, Findings& out) {
     if (doc.strips.meshes[m].single_wedges || c.base_wedges > c.wedges || c.wedges > kMaxCount)
       continue;
     const std::uint64_t come =
-        std::uint64_t{c.base_wedges} + doc.strips.meshes[m].wedge_places.size();
+        std::uint64_t{c.base_wedges} + doc.strips.meshes[m].wedge_offset_counts.size();
     if (come != c.wedges) out.add(count_of(m, 1), versus(c.wedges, come));
   }
 }
@@ -322,4 +322,4 @@ void one_side_within_both(const Document& doc, Findings& out) {
   });
 }
 
-}  // namespace pstrip::checks
+}  // namespace pstrips::inline validators::checks

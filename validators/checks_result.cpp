@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "codecs/vsplit/level.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/digest.h"
 #include "validators/checks.h"
 
-namespace pstrip::checks {
+namespace pstrips::inline validators::checks {
 namespace {
 
 template <class Visit>
@@ -237,4 +237,4 @@ void digest_matches(const Document& doc, Findings& out) {
   });
 }
 
-}  // namespace pstrip::checks
+}  // namespace pstrips::inline validators::checks

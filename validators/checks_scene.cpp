@@ -2,7 +2,7 @@
 
 #include "validators/checks.h"
 
-namespace pstrip::checks {
+namespace pstrips::inline validators::checks {
 
 void node_parents(const Document& doc, Findings& out) {
   const std::vector<Node>& nodes = doc.strips.scene.nodes;
@@ -44,4 +44,4 @@ void foreign_keys_differ(const Document& doc, Findings& out) {
       out.add({.field = Field::foreign, .element = i}, foreign[i].key);
 }
 
-}  // namespace pstrip::checks
+}  // namespace pstrips::inline validators::checks

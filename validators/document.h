@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
+#include "core/fault_list.h"
 #include "core/limits.h"
 #include "core/progressive_strips.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/chunks.h"
-#include "formats/pstrip/layout.h"
-#include "formats/pstrip/xml.h"
-#include "validators/fault.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/payload/layout.h"
+#include "formats/pstrip/xml/xml.h"
 #include "validators/replay.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 /// Where a value stands in the file.
 struct Location {
@@ -59,7 +59,7 @@ struct Document {
   std::vector<std::vector<Index>> packets_of;  ///< of each mesh, as numbers into strips.packets
   std::vector<Replay> replays;                 ///< one a mesh, once `depth` is replayed
 
-  // The XML variant's places.
+  // The XML variant's lines.
   XmlLocations lines;
   std::string stopped_at;  ///< path of the element where reading stopped; empty: nowhere
 
@@ -78,4 +78,4 @@ Document open_xml(ByteView file, const Limits& limits);
 /// Precondition: the rules of Stage::base hold.
 void replay_all(Document& doc);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

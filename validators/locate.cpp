@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "formats/pstrip/layout.h"
+#include "formats/pstrip/payload/layout.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
 using namespace layout;
@@ -203,10 +203,10 @@ class Locator {
       case Field::record:
       case Field::parent:
         return in_packet(&mesh.vsplits, where_.record, "");
-      case Field::carried:
-        return in_packet(&mesh.carried, i, ", carried wedge");
-      case Field::place:
-        return in_packet(&mesh.places, i, ", place");
+      case Field::reassigned:
+        return in_packet(&mesh.reassigned, i, ", reassigned wedge");
+      case Field::map_offset:
+        return in_packet(&mesh.map_offsets, i, ", map offset");
       case Field::faces:
         return chunk(at.faces);
       case Field::face_first:
@@ -301,4 +301,4 @@ Location locate_binary(const Document& doc, const Where& where) {
   return Locator(doc, where).find();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

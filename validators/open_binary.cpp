@@ -4,7 +4,7 @@
 #include "validators/locate.h"
 #include "validators/probe.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
 using namespace layout;
@@ -318,7 +318,7 @@ class Opener {
       fault(Fault::packet_not_next, where);
       return false;
     }
-    if (mesh.single_wedges && (head.wedges != head.vsplits || head.carried != 0)) {
+    if (mesh.single_wedges && (head.wedges != head.vsplits || head.reassigned != 0)) {
       fault(Fault::packet_single_wedges, where);
       return false;
     }
@@ -342,26 +342,26 @@ class Opener {
   /// Completes the records from the packet's columns and compares their sums with its head.
   bool add_up(ProgressiveMesh& mesh, const PacketHead& head, const PacketStart& start,
               const Where& where) {
-    std::uint64_t wedges = 0, carried = 0, places = 0;
-    std::size_t list = start.wedge_place;
+    std::uint64_t wedges = 0, reassigned = 0, map_offsets = 0;
+    std::size_t list = start.offset_count;
     for (std::size_t i = start.vsplit; i < mesh.vsplits.size() && wedges <= head.wedges; ++i) {
       Vsplit& split = mesh.vsplits[i];
       if (mesh.single_wedges) split.wedges = 1;
       wedges += split.wedges;
-      carried += split.carried;
+      reassigned += split.reassigned;
       if (wedges > head.wedges) break;
       std::uint64_t of_record = 0;
       for (const std::size_t end = list + split.wedges; list < end; ++list)
-        of_record += mesh.wedge_places[list];
-      places += of_record;
-      split.places = static_cast<Index>(std::min<std::uint64_t>(of_record, kNone));
+        of_record += mesh.wedge_offset_counts[list];
+      map_offsets += of_record;
+      split.map_offsets = static_cast<Index>(std::min<std::uint64_t>(of_record, kNone));
     }
-    if (wedges != head.wedges || carried != head.carried) {
+    if (wedges != head.wedges || reassigned != head.reassigned) {
       fault(Fault::packet_wedges, where);
       return false;
     }
-    if (places != head.places) fault(Fault::packet_places, where);
-    return places == head.places;
+    if (map_offsets != head.map_offsets) fault(Fault::packet_offsets, where);
+    return map_offsets == head.map_offsets;
   }
 
   bool names_mesh(Index mesh, Fault otherwise) {
@@ -487,4 +487,4 @@ Document open_binary(ByteView file, const Limits& limits) {
   return doc;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

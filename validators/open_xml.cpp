@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/xml_scan.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/xml/xml_scan.h"
 #include "validators/document.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
 /// The reader's fixed phrases and the rules that they belong to.
@@ -91,8 +91,8 @@ std::string model_path(const Document& doc, const Where& where) {
       return "/packets/" + std::to_string(doc.packets_of[where.mesh][where.packet]);
     case Field::record:
     case Field::parent:
-    case Field::carried:
-    case Field::place: {
+    case Field::reassigned:
+    case Field::map_offset: {
       std::size_t vsplit = where.record;
       for (Index k = 0; k < where.packet; ++k)
         vsplit += doc.strips.packets[doc.packets_of[where.mesh][k]].vsplits;
@@ -195,4 +195,4 @@ Document open_xml(ByteView file, const Limits& limits) {
   return doc;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

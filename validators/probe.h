@@ -1,10 +1,10 @@
 #pragma once
 
-#include "formats/pstrip/layout.h"
-#include "validators/fault.h"
+#include "core/fault_list.h"
+#include "formats/pstrip/payload/layout.h"
 #include "validators/utf8.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 /// The Io of the layout functions that reads a payload for judging: where a reader would give up,
 /// it notes the fault and goes on as long as the fields after keep their meaning.
@@ -121,4 +121,4 @@ class ProbeIo {
   bool undefined_ = false;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
-// Symbols let one written place change many entries, and a carried wedge stands at many places. The
-// encoder of [Kim04 §3.3] needs about two changed entries for each written one.
+// Symbols let one written place change many entries, and a reassigned wedge stands at many map
+// offsets. The encoder of [Kim04 §3.3] needs about two changed entries for each written one.
 constexpr std::uint64_t kWorkPerItem = 64;
 
 /// The state of a decoder between two records, kept so that a record costs what it changes.
@@ -19,12 +19,12 @@ class State {
         wedge_count_(mesh.base_vertices + mesh.vsplits.size()),
         strip_of_(entry_.size()),
         is_triangle_(entry_.size()),
-        lists_uses_(!mesh.carried.empty()) {
+        lists_uses_(!mesh.reassigned.empty()) {
     if (mesh.single_wedges) {
       owner_.resize(mesh.base_wedges);
       std::iota(owner_.begin(), owner_.end(), Index{0});
     }
-    owner_.reserve(mesh.base_wedges + mesh.wedge_places.size());
+    owner_.reserve(mesh.base_wedges + mesh.wedge_offset_counts.size());
     for (const Index v : owner_) ++wedge_count_[v];
     value_ = resolve(entry_).value();  // the index map is valid
     Index strip = 0;
@@ -32,7 +32,8 @@ class State {
       strip_of_[i] = value_[i] == kRestart ? strip++ : strip;
     triangles_of_strip_.resize(std::size_t{strip} + 1);
     for (std::size_t i = 0; i < value_.size(); ++i) refresh_window(i);
-    work_left_ = 1024 + kWorkPerItem * (entry_.size() + mesh.places.size() + mesh.carried.size());
+    work_left_ =
+        1024 + kWorkPerItem * (entry_.size() + mesh.map_offsets.size() + mesh.reassigned.size());
     if (lists_uses_) list_uses();
   }
 
@@ -153,12 +154,12 @@ class State {
   Index triangles_ = 0, strips_ = 0;
   std::uint64_t work_left_ = 0;
   bool exhausted_ = false;
-  bool lists_uses_;  // a wedge is carried at some time
+  bool lists_uses_;  // a wedge is reassigned at some time
 };
 
 /// Where the lists of the current record start, from the start of the mesh.
 struct Cursor {
-  std::size_t vsplit = 0, wedge_place = 0, carried = 0, place = 0;
+  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0;
 };
 
 /// Replays one record at a time; a rule that is broken becomes a fault.
@@ -189,14 +190,15 @@ class Records {
     const Index vertex = vertices_;
     if (split.parent > vertex) return broken(Fault::parent_not_there, Field::parent);
     const bool alone = split.parent == vertex;
-    if (alone && split.carried > 0) return broken(Fault::lone_vertex_carries, Field::record);
-    if (alone && split.places > 0) return broken(Fault::lone_vertex_writes, Field::record);
-    if (alone && moves(vertex)) return broken(Fault::lone_vertex_moves, Field::record);
+    if (alone && split.reassigned > 0)
+      return broken(Fault::isolated_vertex_reassigns, Field::record);
+    if (alone && split.map_offsets > 0) return broken(Fault::isolated_vertex_writes, Field::record);
+    if (alone && moves(vertex)) return broken(Fault::isolated_vertex_moves, Field::record);
     ++vertices_;
     const Index first_wedge = state_.wedges();
     state_.add_wedges(vertex, split.wedges);
-    if (!write_places(split, first_wedge)) return false;
-    if (!carry_wedges(split, first_wedge, vertex)) return false;
+    if (!write_offsets(split, first_wedge)) return false;
+    if (!reassign_wedges(split, first_wedge, vertex)) return false;
     if (state_.wedges_of(vertex) == 0)
       return broken(Fault::new_vertex_without_wedge, Field::record);
     if (state_.wedges_of(split.parent) == 0)
@@ -208,43 +210,45 @@ class Records {
 
   /// With free placement: the record gives its own vertex two positions.
   bool moves(Index vertex) const {
-    if (mesh_.placement != Placement::free) return false;
+    if (mesh_.placement != Placement::optimal) return false;
     const std::size_t bytes = mesh_.position.element_bytes();
     const ByteView moved = ByteView(mesh_.parent_position).subspan(at_.vsplit * bytes, bytes);
     return !std::ranges::equal(mesh_.position.element(vertex), moved);
   }
 
-  /// All places are judged by the state before the record, then written.
-  bool write_places(const Vsplit& split, Index first_wedge) {
-    const std::size_t first_list = at_.wedge_place, first_place = at_.place;
-    for (Index w = 0; w < split.wedges; ++w, ++at_.wedge_place)
-      for (Index k = 0; k < mesh_.wedge_places[at_.wedge_place]; ++k, ++at_.place) {
-        const Index place = mesh_.places[at_.place];
-        if (place >= mesh_.base_map.size()) return broken(Fault::place_past_end, Field::place);
-        if (state_.value(place) == kRestart) return broken(Fault::place_is_restart, Field::place);
-        if (k > 0 && place <= mesh_.places[at_.place - 1])
-          return broken(Fault::places_not_ascending, Field::place);
+  /// All map offsets are judged by the state before the record, then written.
+  bool write_offsets(const Vsplit& split, Index first_wedge) {
+    const std::size_t first_list = at_.offset_count, first_place = at_.map_offset;
+    for (Index w = 0; w < split.wedges; ++w, ++at_.offset_count)
+      for (Index k = 0; k < mesh_.wedge_offset_counts[at_.offset_count]; ++k, ++at_.map_offset) {
+        const Index place = mesh_.map_offsets[at_.map_offset];
+        if (place >= mesh_.base_map.size())
+          return broken(Fault::offset_past_end, Field::map_offset);
+        if (state_.value(place) == kRestart)
+          return broken(Fault::offset_is_restart, Field::map_offset);
+        if (k > 0 && place <= mesh_.map_offsets[at_.map_offset - 1])
+          return broken(Fault::offsets_not_ascending, Field::map_offset);
         if (state_.owner(state_.value(place)) != split.parent)
-          return broken(Fault::place_not_of_parent, Field::place);
+          return broken(Fault::offset_not_of_parent, Field::map_offset);
       }
-    at_.place = first_place;
+    at_.map_offset = first_place;
     for (Index w = 0; w < split.wedges; ++w)
-      for (Index k = 0; k < mesh_.wedge_places[first_list + w]; ++k, ++at_.place) {
-        const Index place = mesh_.places[at_.place];
+      for (Index k = 0; k < mesh_.wedge_offset_counts[first_list + w]; ++k, ++at_.map_offset) {
+        const Index place = mesh_.map_offsets[at_.map_offset];
         const Index before = state_.entry(place);
         if (is_wedge(before) && before >= first_wedge)
-          return broken(Fault::place_twice, Field::place);
+          return broken(Fault::offset_twice, Field::map_offset);
         state_.write(place, first_wedge + w);
       }
     return true;
   }
 
-  bool carry_wedges(const Vsplit& split, Index first_wedge, Index vertex) {
-    for (Index k = 0; k < split.carried; ++k, ++at_.carried) {
-      const Index wedge = mesh_.carried[at_.carried];
-      if (wedge >= first_wedge) return broken(Fault::carried_not_there, Field::carried);
+  bool reassign_wedges(const Vsplit& split, Index first_wedge, Index vertex) {
+    for (Index k = 0; k < split.reassigned; ++k, ++at_.reassigned) {
+      const Index wedge = mesh_.reassigned[at_.reassigned];
+      if (wedge >= first_wedge) return broken(Fault::reassigned_not_there, Field::reassigned);
       if (state_.owner(wedge) != split.parent)
-        return broken(Fault::carried_not_of_parent, Field::carried);
+        return broken(Fault::reassigned_not_of_parent, Field::reassigned);
       state_.carry(wedge, vertex);
     }
     return true;
@@ -253,8 +257,8 @@ class Records {
   bool broken(Fault fault, Field field) {
     Where where{.field = field, .packet = packet_, .record = record_};
     if (field == Field::parent) where.element = record_;
-    if (field == Field::place) where.element = at_.place - packet_start_.place;
-    if (field == Field::carried) where.element = at_.carried - packet_start_.carried;
+    if (field == Field::map_offset) where.element = at_.map_offset - packet_start_.map_offset;
+    if (field == Field::reassigned) where.element = at_.reassigned - packet_start_.reassigned;
     faults_.add(fault, where);
     return false;
   }
@@ -273,4 +277,4 @@ Replay replay(const ProgressiveMesh& mesh, std::span<const Index> packets, Fault
   return Records(mesh, faults).run(packets);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

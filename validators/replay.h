@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "core/fault_list.h"
 #include "core/progressive_strips.h"
-#include "validators/fault.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 /// What a mesh shows at a level.
 struct Shown {
@@ -28,9 +28,9 @@ struct Replay {
 /// packets  record counts of the mesh's packets in order, together no more than mesh.vsplits
 /// faults   gets the first record that breaks a rule (`Where` without its mesh); what follows it
 ///          is not judged, since it builds on it
-/// cost     O(map + records + lists) where symbols and carried wedges are as rare as an encoder
+/// cost     O(map + records + lists) where symbols and reassigned wedges are as rare as an encoder
 ///          makes them; a file made to cost more is stopped at 64 times that, with
 ///          Fault::too_much_work
 Replay replay(const ProgressiveMesh& mesh, std::span<const Index> packets, Faults& faults);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 std::string_view name_of(Severity severity) {
   constexpr std::string_view kNames[] = {"error", "warning", "info"};
@@ -27,4 +27,4 @@ void Report::add(Finding finding, Verdict means) {
     findings_.push_back(std::move(finding));
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

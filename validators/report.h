@@ -7,7 +7,7 @@
 
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 enum class Severity : std::uint8_t {
   error,    ///< the file breaks a MUST of the specification
@@ -64,4 +64,4 @@ class Report {
   Verdict verdict_ = Verdict::valid;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

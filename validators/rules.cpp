@@ -4,7 +4,7 @@
 
 #include "validators/checks.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
 using namespace checks;
@@ -96,12 +96,12 @@ constexpr Rule kRules[] = {
     {"PS1055", kError, "C-055", Stage::file, "The mesh of a PCKT is below the number of meshes.",
      noticed<Fault::packet_mesh>},
     {"PS1056", kError, "C-056", Stage::file,
-     "The wedges and carried wedges of the records add up to the counts of their PCKT.",
+     "The wedges and reassigned wedges of the records add up to the counts of their PCKT.",
      noticed<Fault::packet_wedges>},
-    {"PS1057", kError, "C-057", Stage::file, "wedge_places adds up to the places of its PCKT.",
-     noticed<Fault::packet_places>},
+    {"PS1057", kError, "C-057", Stage::file,
+     "wedge_offset_counts adds up to the map offsets of its PCKT.", noticed<Fault::packet_offsets>},
     {"PS1058", kError, "C-058", Stage::file,
-     "With single wedges a PCKT has one new wedge a vsplit and carries none.",
+     "With single wedges a PCKT has one new wedge a vsplit and reassigns none.",
      noticed<Fault::packet_single_wedges>, Verdict::invalid, "V-004"},
     {"PS1060", kError, "C-060", Stage::file, "The mesh of a fACE is below the number of meshes.",
      noticed<Fault::faces_mesh>},
@@ -230,32 +230,34 @@ constexpr Rule kRules[] = {
      "parent is a vertex that is there, or the new vertex itself.",
      noticed<Fault::parent_not_there>},
     {"PS4002", kError, "V-002", Stage::replay,
-     "A vertex that appears on its own carries no wedges.", noticed<Fault::lone_vertex_carries>},
-    {"PS4003", kError, "V-003", Stage::replay, "A vertex that appears on its own has no places.",
-     noticed<Fault::lone_vertex_writes>},
-    {"PS4005", kError, "V-005", Stage::replay, "A record has at least one new or carried wedge.",
+     "A vertex that appears on its own reassigns no wedges.",
+     noticed<Fault::isolated_vertex_reassigns>},
+    {"PS4003", kError, "V-003", Stage::replay,
+     "A vertex that appears on its own has no map offsets.",
+     noticed<Fault::isolated_vertex_writes>},
+    {"PS4005", kError, "V-005", Stage::replay, "A record has at least one new or reassigned wedge.",
      noticed<Fault::new_vertex_without_wedge>},
     {"PS4006", kError, "V-006", Stage::replay, "At least one wedge of the parent remains with it.",
      noticed<Fault::parent_without_wedge>},
-    {"PS4007", kError, "V-007", Stage::replay, "Each carried wedge is there.",
-     noticed<Fault::carried_not_there>},
+    {"PS4007", kError, "V-007", Stage::replay, "Each reassigned wedge is there.",
+     noticed<Fault::reassigned_not_there>},
     {"PS4008", kError, "V-008", Stage::replay,
-     "Each carried wedge belongs to the parent and is named once.",
-     noticed<Fault::carried_not_of_parent>},
-    {"PS4010", kError, "V-010", Stage::replay, "Each place is below map_entries.",
-     noticed<Fault::place_past_end>},
-    {"PS4011", kError, "V-011", Stage::replay, "No place holds a restart.",
-     noticed<Fault::place_is_restart>},
-    {"PS4012", kError, "V-012", Stage::replay, "The places of a wedge ascend.",
-     noticed<Fault::places_not_ascending>},
-    {"PS4013", kError, "V-013", Stage::replay, "No place stands twice in a record.",
-     noticed<Fault::place_twice>},
+     "Each reassigned wedge belongs to the parent and is named once.",
+     noticed<Fault::reassigned_not_of_parent>},
+    {"PS4010", kError, "V-010", Stage::replay, "Each map offset is below map_entries.",
+     noticed<Fault::offset_past_end>},
+    {"PS4011", kError, "V-011", Stage::replay, "No map offset is that of a restart.",
+     noticed<Fault::offset_is_restart>},
+    {"PS4012", kError, "V-012", Stage::replay, "The map offsets of a wedge ascend.",
+     noticed<Fault::offsets_not_ascending>},
+    {"PS4013", kError, "V-013", Stage::replay, "No map offset stands twice in a record.",
+     noticed<Fault::offset_twice>},
     {"PS4014", kError, "V-014", Stage::replay,
-     "The wedge at each place belongs to the parent before the record.",
-     noticed<Fault::place_not_of_parent>},
+     "The wedge at each map offset belongs to the parent before the record.",
+     noticed<Fault::offset_not_of_parent>},
     {"PS4015", kError, "V-015", Stage::replay,
      "A vertex that appears on its own stands where its record puts it.",
-     noticed<Fault::lone_vertex_moves>},
+     noticed<Fault::isolated_vertex_moves>},
     {"PS5001", kError, "X-001", Stage::file, "An XML file is well-formed XML 1.0 in UTF-8.",
      noticed<Fault::xml_malformed>},
     {"PS5002", kError, "X-002", Stage::file,
@@ -366,4 +368,4 @@ std::string rules_page(const std::function<std::string(const Rule&)>& example_of
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

@@ -8,7 +8,7 @@
 #include "validators/document.h"
 #include "validators/report.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 /// What has to be there, and sound, before a rule can be asked.
 enum class Stage : std::uint8_t {
@@ -68,4 +68,4 @@ std::string explain(std::string_view code);
 /// example_of  names a file that breaks the rule and no other
 std::string rules_page(const std::function<std::string(const Rule&)>& example_of);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
 /// Bytes of the character at the front of `text`, 0 when there is none. [RFC 3629 §4]
@@ -33,4 +33,4 @@ std::size_t first_not_utf8(std::string_view text) {
   return text.size();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

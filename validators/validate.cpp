@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/xml/xml.h"
 #include "validators/rules.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 namespace {
 
 void ask(Stage stage, const Document& doc, const ValidateOptions& options, Report& report) {
@@ -72,4 +72,4 @@ Report validate(ByteView file, const ValidateOptions& options) {
   return report;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

@@ -7,7 +7,7 @@
 #include "core/limits.h"
 #include "validators/report.h"
 
-namespace pstrip {
+namespace pstrips::inline validators {
 
 struct ValidateOptions {
   Limits limits;
@@ -24,4 +24,4 @@ struct ValidateOptions {
 /// cost  O(file) time and memory; checks of one packet cost what it changes
 Report validate(ByteView file, const ValidateOptions& options = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline validators

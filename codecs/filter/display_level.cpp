@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, AppendFilter filter)
     : level_(mesh),
@@ -18,7 +18,7 @@ void DisplayLevel::refine(Index vsplits) { level_.refine(vsplits); }
 
 std::size_t DisplayLevel::update() {
   touched_.clear();
-  for (const Index place : level_.places_since(filtered_to_)) {
+  for (const Index place : level_.offsets_since(filtered_to_)) {
     const auto after = std::ranges::upper_bound(strips_, place, {}, &StripRange::first);
     const auto strip = static_cast<Index>(after - strips_.begin() - 1);
     if (is_touched_[strip]) continue;
@@ -76,4 +76,4 @@ void DisplayLevel::append_display(DisplayStrips& out) const {
   if (start == 0 && !out.empty()) out.erase(out.begin());  // the first segment's restart
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 #include "codecs/filter/display_strips.h"
 #include "codecs/vsplit/level.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A level and its display strips, kept in step: after some vsplits only the strips that they
 /// rewrote are filtered again. [Kim04 §3.1, the reconstruction stage]
@@ -47,4 +47,4 @@ class DisplayLevel {
   DisplayCost cost_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr NamedFilter kFilters[] = {
@@ -105,4 +105,4 @@ DisplayCost display_cost(std::span<const Index> display) {
   return {display.size() - restarts, restarts};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

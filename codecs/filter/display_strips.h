@@ -7,7 +7,7 @@
 
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // What a renderer is sent at some level: generalized strips of wedges, parted by kRestart, whose
 // triangles are exactly those of the index map, each with its winding (for_each_triangle of
@@ -67,4 +67,4 @@ struct DisplayCost {
 
 DisplayCost display_cost(std::span<const Index> display);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -4,7 +4,7 @@
 
 #include "codecs/stripify/best.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 DisplayStrips restrip(std::span<const Index> strips, std::span<const Index> wedge_vertex) {
   std::vector<Index> triangles;
@@ -20,4 +20,4 @@ DisplayStrips restrip(std::span<const Index> strips, std::span<const Index> wedg
   return best_strips(input, {.effort = 0});
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/filter/display_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Builds new display strips over the triangles of some strips, instead of thinning the old ones
 /// out. The more neighbouring strips come in one call, the better; ten to fifty times the time
@@ -15,4 +15,4 @@ namespace pstrip {
 /// cost          O(entries + highest wedge)
 DisplayStrips restrip(std::span<const Index> strips, std::span<const Index> wedge_vertex);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

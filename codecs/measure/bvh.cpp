@@ -6,11 +6,11 @@
 #include <numeric>
 #include <utility>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr Index kLeafParts = 4;
-constexpr std::size_t kMostDepth = 64;  // halving 2^32 parts takes 32
+constexpr std::size_t kMaxDepth = 64;  // halving 2^32 parts takes 32
 
 Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -143,7 +143,7 @@ double Bvh::squared_distance(const Node& node, const Vec3& point) {
 double Bvh::squared_distance(const Vec3& point, Index& hint) const {
   hint = std::min(hint, static_cast<Index>(parts_.size() - 1));
   double best = squared_distance(parts_[hint], point);
-  std::pair<double, Index> stack[kMostDepth];  // box distance, node
+  std::pair<double, Index> stack[kMaxDepth];  // box distance, node
   std::size_t depth = 0;
   stack[depth++] = {squared_distance(nodes_[0], point), 0};
   while (depth > 0) {
@@ -165,4 +165,4 @@ double Bvh::squared_distance(const Vec3& point, Index& hint) const {
   return best;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

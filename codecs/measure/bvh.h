@@ -5,7 +5,7 @@
 
 #include "codecs/measure/measure.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 struct Vec3 {
   double x = 0, y = 0, z = 0;
@@ -43,4 +43,4 @@ class Bvh {
   std::vector<Node> nodes_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

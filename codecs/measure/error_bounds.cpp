@@ -15,7 +15,7 @@
 #include "codecs/measure/patch_map.h"
 #include "core/point.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using Plane = std::array<double, 2>;
@@ -611,4 +611,4 @@ std::vector<ErrorBounds> error_bounds(CollapsedSurface surface, double most) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "core/mesh.h"
 #include "core/point.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// How far the surfaces of a level and of full resolution are apart at most, model units, rounded
 /// up. [spec/model.md §5]
@@ -52,4 +52,4 @@ struct CollapsedSurface {
 std::vector<ErrorBounds> error_bounds(CollapsedSurface surface,
                                       double most = std::numeric_limits<double>::infinity());
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

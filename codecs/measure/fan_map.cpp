@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using Plane = std::array<double, 2>;
@@ -21,10 +21,10 @@ Point between(const Point& a, const Point& b, double t) {
 // Single precision has half a unit in the 24th bit of rounding, or half of the least number.
 constexpr double kRounding = 0x1p-23;
 constexpr double kLeast = std::numeric_limits<float>::denorm_min();
-constexpr double kMost = std::numeric_limits<float>::max();
+constexpr double kMax = std::numeric_limits<float>::max();
 
 float above(double x) {
-  return static_cast<float>(std::min(x + std::abs(x) * kRounding + kLeast, kMost));
+  return static_cast<float>(std::min(x + std::abs(x) * kRounding + kLeast, kMax));
 }
 float below(double x) { return -above(-x); }
 
@@ -166,4 +166,4 @@ bool FanMap::run() {
   return true;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -6,7 +6,7 @@
 
 #include "core/point.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// An axis-aligned box of displacement vectors, rounded outwards.
 struct DisplacementBox {
@@ -61,4 +61,4 @@ struct FanMap {
   double slack_ = 0;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

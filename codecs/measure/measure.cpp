@@ -8,7 +8,7 @@
 
 #include "codecs/measure/bvh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 struct Moments {
@@ -123,4 +123,4 @@ double bounding_box_diagonal(std::span<const double> positions) {
   return low[0] <= high[0] ? std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]) : 0;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A surface: its triangles, or its vertices as points when it has none. Triangles and points with
 /// a NaN or an infinity do not belong to it; vertices outside all triangles neither, unless there
@@ -40,4 +40,4 @@ Distance measure_distance(const Surface& a, const Surface& b, std::uint64_t samp
 /// Length of the bounding box's diagonal over the finite vertices; 0 when there are none.
 double bounding_box_diagonal(std::span<const double> positions);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

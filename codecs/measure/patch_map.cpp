@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 // Parts this much farther off than some point has to be are not worth cutting.
 constexpr double kSlack = 1.2;
-constexpr int kMostCuts = 100;  // of one triangle; it takes a dozen where surfaces are smooth
+constexpr int kMaxCuts = 100;  // of one triangle; it takes a dozen where surfaces are smooth
 
 Point along(const Point& a, const Point& d, double t) {
   return {a[0] + d[0] * t, a[1] + d[1] * t, a[2] + d[2] * t};
@@ -125,7 +125,7 @@ void PatchMap::map_parts(Patch& patch, Direction direction, std::uint64_t& work)
     const Image image = nearest_image(part, others);
     work -= std::min<std::uint64_t>(work, others.size());
     enough_ = std::max(enough_, kSlack * kSlack * image.least_distance);
-    if (image.distance > enough_ && cuts < kMostCuts && work > 0) {
+    if (image.distance > enough_ && cuts < kMaxCuts && work > 0) {
       ++cuts;
       cut(part, others);
     } else {
@@ -165,4 +165,4 @@ void PatchMap::run(double near_enough, std::uint64_t& work) {
     if (patch.is_changed) map_parts(patch, Direction::backward, work);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "core/mesh.h"
 #include "core/point.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Relates two small sets of triangles of which one replaces the other: each part of a triangle of
 /// either set is mapped linearly into a triangle of the other set, as near as can be.
@@ -52,4 +52,4 @@ struct PatchMap {
   double enough_ = 0;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr SurveyKind kKinds[] = {
@@ -280,4 +280,4 @@ std::span<const SurveyKind> survey_kinds() { return kKinds; }
 
 Survey survey(const Mesh& mesh, unsigned threads) { return Surveyor(mesh).run(threads); }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

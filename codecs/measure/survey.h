@@ -6,7 +6,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// What a mesh has that simple programs stumble over. Topology is by vertex, not by position.
 /// Polygons are the faces of three or more corners in groups of that kind.
@@ -40,4 +40,4 @@ std::span<const SurveyKind> survey_kinds();
 /// cost     O(n log d) for n corners and d of them at a vertex, about 20 bytes a triangle at work
 Survey survey(const Mesh& mesh, unsigned threads = 1);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

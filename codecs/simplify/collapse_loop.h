@@ -4,7 +4,7 @@
 #include "codecs/simplify/simplify.h"
 #include "codecs/simplify/vertex_buckets.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Fetches what the vertices that come next are going to ask for: step by step, since where the one
 /// is stands in the other. Always inline: GCC takes a function that only prefetches for one without
@@ -47,4 +47,4 @@ void collapse_until(CollapseSequence& out, const Complex& complex, VertexBuckets
     out.stop = SimplifyStop::max_error;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

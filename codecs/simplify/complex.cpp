@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // A vertex takes over two corners more than it loses when its first neighbour goes to it.
@@ -81,11 +81,11 @@ Complex::Complex(std::span<const double> positions, std::span<const Index> wedge
 }
 
 std::array<double, 3> Complex::model_position(Index vertex) const {
-  constexpr double kMost = std::numeric_limits<double>::max();
+  constexpr double kMax = std::numeric_limits<double>::max();
   const Vec3f& p = points[vertex].position;
   const auto unscaled = [&](float x, int k) {
     const double half = x / (2 * scale[0]) / scale[1] + low[k];
-    return std::clamp(2 * half, -kMost, kMost);
+    return std::clamp(2 * half, -kMax, kMax);
   };
   return {unscaled(p.x, 0), unscaled(p.y, 1), unscaled(p.z, 2)};
 }
@@ -196,8 +196,8 @@ void Complex::place(Star& star, Index spokes, Index edges) const {
 
 // Each spoke's previous vertex is the next of one spoke, and no two have the same.
 bool Star::is_regular() const {
-  if (spokes.size() > kMostForPairs) return false;
-  Int4 hits_of_lane[kMostForPairs / 4] = {};
+  if (spokes.size() > kMaxForPairs) return false;
+  Int4 hits_of_lane[kMaxForPairs / 4] = {};
   for (const Spoke& spoke : spokes) {
     Int4 hits = {};
     for (std::size_t g = 0; g < edge_groups.size(); ++g) {
@@ -262,4 +262,4 @@ Index Complex::new_epoch(Index how_many) {
   return epoch_ - how_many + 1;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

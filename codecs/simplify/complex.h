@@ -11,7 +11,7 @@
 #include "codecs/simplify/quadric.h"
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A triangle at a vertex: its other two vertices in winding order, and the vertex's own corner.
 struct Spoke {
@@ -56,7 +56,7 @@ struct SpokeGroup {
 };
 
 /// Rings up to this size are compared pair by pair.
-constexpr Index kMostForPairs = 16;
+constexpr Index kMaxForPairs = 16;
 
 /// The live triangles and edges around one vertex; scratch memory.
 struct Star {
@@ -71,7 +71,7 @@ struct Star {
   std::vector<EdgeGroup> edge_group_buffer;
   std::vector<SpokeGroup> spoke_group_buffer;
 
-  /// Whether the vertex is regular, after gather_regular(). Not told apart beyond kMostForPairs
+  /// Whether the vertex is regular, after gather_regular(). Not told apart beyond kMaxForPairs
   /// spokes.
   bool is_regular() const;
   /// Fills normals and areas; returns the quadric of the triangles. [Garland97 §3.4]
@@ -188,4 +188,4 @@ inline std::span<const Index> Complex::ring(Index vertex) {
   return {first, live};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

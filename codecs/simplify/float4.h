@@ -6,7 +6,7 @@
 
 #include "codecs/simplify/quadric.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Four numbers side by side, as the compiler's own vectors: arithmetic and comparisons work lane
 /// by lane, `mask ? a : b` chooses.
@@ -55,4 +55,4 @@ inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -22,7 +22,7 @@
 #include "codecs/simplify/wedges.h"
 #include "core/parallel.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -31,7 +31,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kLengthShare = 1e-9f;
 constexpr float kCarriedShare = 1e-2f;
 constexpr float kForcedShare = 1;
-constexpr int kMostGuardChecks = 16;
+constexpr int kMaxGuardChecks = 16;
 
 float rounded_down(float error) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
@@ -60,7 +60,7 @@ class EdgeSimplifier {
       : input_(input),
         options_(options),
         memoryless_(options.metric == Metric::memoryless),
-        free_(options.placement == Placement::free),
+        free_(options.placement == Placement::optimal),
         complex_(input.positions, input.wedge_vertex, input.triangles),
         wedges_(wedge_table(input, complex_.diagonal)) {
     if (memoryless_) {
@@ -485,7 +485,7 @@ const StarEdge* EdgeSimplifier::choose(Index q, float limit) {
     }
     if (best->refused != Guard::none) return best;
     if (checks == 0) star_.measure();
-    const bool give_up = large && checks == kMostGuardChecks;
+    const bool give_up = large && checks == kMaxGuardChecks;
     for (StarEdge& edge : star_.edges) {
       if (give_up ? edge.refused != Guard::none : &edge != best) continue;
       const Vec3f offset = complex_.offset(q, edge.vertex);
@@ -638,4 +638,4 @@ CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOption
   return EdgeSimplifier(input, options).run(progress);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

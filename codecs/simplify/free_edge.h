@@ -2,7 +2,7 @@
 
 #include "codecs/simplify/simplify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// simplify() with free placement, or with the memoryless metric, in general. A vertex stands in
 /// the heap once, under the cost that its cheapest collapse had when it was last looked at; it is
@@ -10,4 +10,4 @@ namespace pstrip {
 CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOptions& options,
                                 const Progress& progress);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

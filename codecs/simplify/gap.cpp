@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 float squared_gap(const Star& star, Vec3f offset) {
   constexpr float kFar = std::numeric_limits<float>::max();
@@ -31,4 +31,4 @@ float squared_gap(const Star& star, Vec3f offset) {
   return std::min({least[0], least[1], least[2], least[3]});
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

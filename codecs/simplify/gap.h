@@ -2,7 +2,7 @@
 
 #include "codecs/simplify/complex.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// How far from the model a collapse of a star's vertex onto the other end of an edge leaves the
 /// place where it stood: its distance, squared, to the nearest of the faces that the star becomes
@@ -10,4 +10,4 @@ namespace pstrip {
 /// near all of them wherever it goes. Cost O(star); the star must have been measured.
 float squared_gap(const Star& star, Vec3f offset);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

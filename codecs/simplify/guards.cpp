@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // Faces may turn by 78°.
@@ -76,7 +76,7 @@ bool Guards::breaks_regular_link(const Star& star, Index p) {
 bool Guards::breaks_link(const Star& star, Index p) {
   const auto is_small = [&](Index v) {
     const VertexRecord& record = complex_.vertices[v];
-    return record.regular && record.ring_size <= kMostForPairs;
+    return record.regular && record.ring_size <= kMaxForPairs;
   };
   if (is_small(star.vertex) && is_small(p)) return breaks_regular_link(star, p);
   std::vector<Index>& marks = complex_.marks;
@@ -157,4 +157,4 @@ bool Guards::flips_kept(Index q, Index p, Vec3f shift) {
   });
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 #include "codecs/simplify/complex.h"
 #include "codecs/simplify/simplify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Rings larger than this are not looked through for each of their neighbours' collapses, so that
 /// one vertex with a great many neighbours costs no more than they do.
@@ -42,4 +42,4 @@ inline void count(GuardCounts& counts, Guard guard) {
   if (guard == Guard::texture) ++counts.texture;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -20,7 +20,7 @@
 #include "codecs/simplify/wedges.h"
 #include "core/parallel.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -31,10 +31,10 @@ constexpr float kLengthShare = 1e-9f;
 constexpr float kCarriedShare = 1e-2f;
 constexpr float kForcedShare = 1;
 
-constexpr float kMostCost = std::numeric_limits<float>::max();
+constexpr float kMaxCost = std::numeric_limits<float>::max();
 
 // Guard checks of one large ring in a row.
-constexpr int kMostGuardChecks = 16;
+constexpr int kMaxGuardChecks = 16;
 
 class HalfEdgeSimplifier {
  public:
@@ -283,11 +283,11 @@ const StarEdge* HalfEdgeSimplifier::choose(float limit) {
     if (!best || best->cost == kInfinity) return nullptr;
     if (best->cost > limit) {
       // A large ring comes up less often when its key is too high.
-      queue_->put(q, large ? std::min(2 * best->cost, kMostCost) : best->cost);
+      queue_->put(q, large ? std::min(2 * best->cost, kMaxCost) : best->cost);
       return nullptr;
     }
     if (best->refused != Guard::none) return best;
-    const bool give_up = large && checks == kMostGuardChecks;
+    const bool give_up = large && checks == kMaxGuardChecks;
     for (StarEdge& edge : now_.star.edges) {
       if (give_up ? edge.refused != Guard::none : &edge != best) continue;
       edge.refused = give_up ? Guard::flip : check(edge);
@@ -368,4 +368,4 @@ CollapseSequence simplify_half_edges(const SimplifyInput& input, const SimplifyO
   return HalfEdgeSimplifier(input, options).run(progress);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/simplify/simplify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// simplify() with subset placement. A vertex waits under the cost of its cheapest collapse when it
 /// was last looked at, and is looked at again when it comes up; nothing else is kept up to date.
@@ -11,4 +11,4 @@ namespace pstrip {
 CollapseSequence simplify_half_edges(const SimplifyInput& input, const SimplifyOptions& options,
                                      const Progress& progress);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

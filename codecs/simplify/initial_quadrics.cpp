@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // Weight of the plane that stands on an edge, times the edge's length squared; a face's plane
@@ -109,4 +109,4 @@ float QuadricBuilder::seam_weight(const Spoke& a, Index side_a, const Spoke& b,
   return kSeamWeight * weight;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

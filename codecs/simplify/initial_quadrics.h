@@ -4,7 +4,7 @@
 #include "codecs/simplify/simplify.h"
 #include "codecs/simplify/wedges.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// What counts in the error quadrics besides the planes of faces: planes that hold borders, seams
 /// and folds in place, and attributes. [Garland97 §6; Hoppe99 §3]
@@ -35,4 +35,4 @@ class QuadricBuilder {
   WedgeTable* wedges_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // Pull to the middle of the edge, as a share of the quadric's mean curvature.
@@ -131,4 +131,4 @@ Quadric EdgeSums::quadric(std::size_t i) const {
   return {xx[i], yy[i], zz[i], xy[i], xz[i], yz[i], b.lane(i), 0};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -3,7 +3,7 @@
 #include "codecs/simplify/float4.h"
 #include "codecs/simplify/quadric.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A plane area·x = constant, or none: where a vertex may stand so that the volume under the faces
 /// around it stays what it is. [Lindstrom98 §3.1]
@@ -38,4 +38,4 @@ struct EdgeSums {
 /// The same for four edges at once.
 Vec3x4 best_place(const EdgeSums& sums);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

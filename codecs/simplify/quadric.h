@@ -1,6 +1,6 @@
 #pragma once
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 struct Vec3f {
   float x = 0, y = 0, z = 0;
@@ -69,4 +69,4 @@ struct Quadric {
   }
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

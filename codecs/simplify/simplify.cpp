@@ -5,7 +5,7 @@
 #include "codecs/simplify/free_edge.h"
 #include "codecs/simplify/half_edge.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 CollapseSequence simplify(const SimplifyInput& input, const SimplifyOptions& options,
                           const Progress& progress) {
@@ -15,4 +15,4 @@ CollapseSequence simplify(const SimplifyInput& input, const SimplifyOptions& opt
   return simplify_edges(input, options, progress);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "core/progress.h"
 #include "core/progressive_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A triangle complex of any kind: non-manifold, doubled faces, several components, borders.
 struct SimplifyInput {
@@ -117,4 +117,4 @@ struct CollapseSequence {
 CollapseSequence simplify(const SimplifyInput& input, const SimplifyOptions& options,
                           const Progress& progress = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -11,7 +11,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Vertices to be looked at by key, least first, in steps of about 5 %: of each step by index,
 /// those that join it while it is worked through last. What comes next is known well in advance, so
@@ -129,4 +129,4 @@ inline void VertexBuckets::take_list(List& list) {
   std::ranges::sort(batch_);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // Area over the longest side squared below which a triangle of the texture is a sliver.
@@ -209,4 +209,4 @@ void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, 
   }
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -7,7 +7,7 @@
 #include "codecs/simplify/complex.h"
 #include "codecs/simplify/simplify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Which wedges the corners use and which stand at each vertex, and what their attributes cost.
 ///
@@ -106,4 +106,4 @@ class WedgeTable {
 /// None when each vertex has one wedge and no attributes.
 std::optional<WedgeTable> wedge_table(const SimplifyInput& input, double diagonal);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -6,7 +6,7 @@
 
 #include "codecs/stripify/random.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using HalfEdge = LinkedPaths::HalfEdge;
@@ -26,7 +26,7 @@ class Annealer {
       : paths_(paths),
         random_(options.seed),
         stop_(options.stop),
-        strip_price_(static_cast<int>(std::min(options.strip_price, kMostStripPrice))),
+        strip_price_(static_cast<int>(std::min(options.strip_price, kMaxStripPrice))),
         budget_(std::uint64_t{options.effort} * paths.triangle_count()),
         walk_moves_(options.effort < kLongRun ? 4 : 8),
         first_step_(options.effort < kShortRun ? 12 : 0),
@@ -152,4 +152,4 @@ class Annealer {
 
 void anneal(LinkedPaths& paths, const StripOptions& options) { Annealer(paths, options).run(); }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

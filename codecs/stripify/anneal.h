@@ -3,7 +3,7 @@
 #include "codecs/stripify/linked_paths.h"
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Brings strip_price * strips + swaps down by simulated annealing, then by moves that do not
 /// raise it. Gives back what it got when it found nothing better.
@@ -17,4 +17,4 @@ namespace pstrip {
 /// cost  O(effort * n), as long as paths are long only where few ends are left
 void anneal(LinkedPaths& paths, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -11,7 +11,7 @@
 #include "codecs/stripify/straight_strips.h"
 #include "codecs/stripify/tunneling.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 namespace {
 
@@ -22,7 +22,7 @@ constexpr std::uint32_t kHighStripPrice = 20;
 // Tunnels in edges, the cheap ones first. Beyond, nearly all of them are too dear for a price.
 constexpr std::uint32_t kTunnels[] = {15, 31, 75};
 constexpr std::uint32_t kLongTunnels[] = {151, 301, 601};
-constexpr std::uint32_t kMostRounds = 8;
+constexpr std::uint32_t kMaxRounds = 8;
 
 void dig(LinkedPaths& paths, StripOptions options, std::span<const std::uint32_t> lengths,
          int most_swaps) {
@@ -36,13 +36,13 @@ void dig(LinkedPaths& paths, StripOptions options, std::span<const std::uint32_t
 void join(LinkedPaths& paths, StripOptions options) {
   if (options.goal == StripGoal::indices)
     return dig(paths, options, kTunnels,
-               static_cast<int>(std::min(options.strip_price, kMostStripPrice)));
+               static_cast<int>(std::min(options.strip_price, kMaxStripPrice)));
   dig(paths, options, kTunnels, kAnySwaps);
   dig(paths, options, kLongTunnels, kAnySwaps);
   // Walks shake the last ends up; what they leave apart, tunnels may join then.
   StripOptions walk = options;
   walk.effort = std::max(options.effort / 32, 1u);
-  const std::uint32_t rounds = std::min(kMostRounds, 1 + options.effort / 50);
+  const std::uint32_t rounds = std::min(kMaxRounds, 1 + options.effort / 50);
   for (std::uint32_t round = 0; round < rounds; ++round, ++walk.seed) {
     join_strips(paths, walk);
     dig(paths, options, kTunnels, kAnySwaps);
@@ -114,7 +114,7 @@ Links start(const DualGraph& graph, const StripOptions& options) {
 std::int64_t cost(const Strips& strips, const StripOptions& options) {
   const StripStats stats = strip_stats(strips);
   const std::uint32_t price =
-      options.goal == StripGoal::strips ? kMostStripPrice : options.strip_price;
+      options.goal == StripGoal::strips ? kMaxStripPrice : options.strip_price;
   return std::int64_t{price} * static_cast<std::int64_t>(stats.strips) +
          static_cast<std::int64_t>(stats.swaps);
 }
@@ -158,4 +158,4 @@ Strips best_point_strips(std::span<const double> positions, const StripOptions& 
                      options);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Our own. For few indices: straight strips, or SGI's when there is time, then anneal(). For few
 /// strips, and for a high price a strip, half of that; then dig_tunnels(), shorter ones first, and
@@ -15,4 +15,4 @@ Strips best_polygon_strips(const PolygonInput& input, const StripOptions& option
 /// The same of the triangles of delaunay_triangles().
 Strips best_point_strips(std::span<const double> positions, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "codecs/stripify/dual_graph.h"
 #include "codecs/stripify/emit.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr Index kCacheEntries = 16;
@@ -308,4 +308,4 @@ Strips cache_strips(const StripInput& input, const StripOptions&) {
   return Rows(input, graph).run();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Strips in an order that suits a cache of 16 transformed wedges, first in, first out: rows side
 /// by side, each so short that what it shares with the next one is still cached when that comes.
@@ -21,4 +21,4 @@ namespace pstrip {
 ///         0.74 loads on bunny, 0.73 on cow [Vanecek05 table 8.6]; ours 0.634 and 0.657.
 Strips cache_strips(const StripInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -7,7 +7,7 @@
 
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using Triangle = std::array<Index, 3>;
@@ -122,4 +122,4 @@ std::string find_polygon_strip_fault(const PolygonInput& input, std::span<const 
              : "has other faces or windings";
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// What is wrong with `strips` as a stripification of `input`, as a phrase; empty when they cover
 /// every triangle exactly once with its winding, in ascending order of group, no strip across
@@ -20,4 +20,4 @@ std::string find_strip_fault(const StripInput& input, std::span<const Index> str
 /// faces could still be mixed up where they share edges.
 std::string find_polygon_strip_fault(const PolygonInput& input, std::span<const Index> strips);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -10,7 +10,7 @@
 #include "codecs/stripify/predicates.h"
 #include "codecs/stripify/random.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // Two vertices farther away than any circle through points reaches, so that the triangles that have
@@ -488,4 +488,4 @@ std::vector<Index> delaunay_triangles(std::span<const double> positions,
   return triangulate_points<false>(positions, options).triangles();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// The most points that one triangulation takes; its history needs about 260 bytes a point.
 inline constexpr std::size_t kMaxDelaunayPoints = std::size_t{1} << 26;
@@ -33,4 +33,4 @@ Strips delaunay_strips(std::span<const double> positions, const StripOptions& op
 std::vector<Index> delaunay_triangles(std::span<const double> positions,
                                       const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "codecs/stripify/dual_graph.h"
 #include "codecs/stripify/emit.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 enum class Heuristic { greedy, greedy_no_swap, adjacency };
@@ -145,4 +145,4 @@ Strips dstrips_adjacency(const StripInput& input, const StripOptions&) {
   return stripify<Heuristic::adjacency>(input);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

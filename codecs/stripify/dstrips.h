@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // The stripping methods of DStrips, applied to a whole mesh: a strip grows in one direction from
 // the first free triangle of a work list, by what its neighbours alone tell, until it is stuck;
@@ -24,4 +24,4 @@ Strips dstrips_greedy_no_swap(const StripInput& input, const StripOptions& optio
 /// ends one triangle earlier, and the two are joined over that triangle. [Shafae03 §5.2]
 Strips dstrips_adjacency(const StripInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

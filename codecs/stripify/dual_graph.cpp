@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // A half-edge filed under its lower wedge.
@@ -143,4 +143,4 @@ std::vector<Index> opposite_half_edges(const PolygonInput& input) {
   return Pairing(PolygonEdges(input)).run();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

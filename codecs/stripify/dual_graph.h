@@ -4,7 +4,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // Half-edge h = 3 t + k runs from corner k of triangle t to the next corner.
 
@@ -39,4 +39,4 @@ DualGraph make_dual_graph(const StripInput& input);
 /// of its face.
 std::vector<Index> opposite_half_edges(const PolygonInput& input);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // In a triangle entered over half-edge e, a strip leaves over the edge before e or the one after
@@ -118,4 +118,4 @@ Strips emit_strips(const StripInput& input, const DualGraph& graph, const Links&
   return Emitter(input, graph, links).run();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

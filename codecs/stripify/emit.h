@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/dual_graph.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A stripification as one byte a half-edge: 1 where the strip steps over it. Both half-edges of
 /// an edge agree, no triangle has more than two, and there is no cycle: each connected run of
@@ -26,4 +26,4 @@ std::vector<Index> triangles_by_group(const StripInput& input);
 /// cost  O(n), O(n log n) when the groups are not in ascending order
 Strips emit_strips(const StripInput& input, const DualGraph& graph, const Links& links);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "core/point.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // ---- Which diagonals are open
@@ -387,4 +387,4 @@ Strips emit_face_strips(const StripFaces& faces, std::span<const FaceVisit> visi
   return Cutter(faces).run(visits);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -7,7 +7,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Faces to be covered by strips that choose the diagonals as they go. Half-edge h runs from corner
 /// h to the next corner of its face.
@@ -75,4 +75,4 @@ SwapCounts pass(const StripFaces& faces, const FaceVisit& visit, const SwapCount
 /// cost    O(corners)
 Strips emit_face_strips(const StripFaces& faces, std::span<const FaceVisit> visits);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

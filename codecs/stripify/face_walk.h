@@ -7,7 +7,7 @@
 
 #include "codecs/stripify/face_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// The faces that no strip has taken yet, by number of free neighbours; FreeTriangles for polygons.
 /// Beyond kMany neighbours all are filed as equal.
@@ -131,4 +131,4 @@ class FaceWalk {
   std::vector<FaceVisit> strip_, visits_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

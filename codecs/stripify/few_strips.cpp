@@ -5,7 +5,7 @@
 #include "codecs/stripify/path_index.h"
 #include "codecs/stripify/random.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using HalfEdge = LinkedPaths::HalfEdge;
@@ -205,4 +205,4 @@ class Joiner {
 
 void join_strips(LinkedPaths& paths, const StripOptions& options) { Joiner(paths, options).run(); }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -3,7 +3,7 @@
 #include "codecs/stripify/linked_paths.h"
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Joins the last strips, which no tunnel of bearable length joins any more, until there is one a
 /// component or none of `options.effort` moves a triangle is left.
@@ -14,4 +14,4 @@ namespace pstrip {
 /// few strips are long ones.
 void join_strips(LinkedPaths& paths, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/dual_graph.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// The triangles that no strip has taken yet, by number of free neighbours. Every operation is
 /// O(1), amortized for `lowest`: a triangle is filed anew at each loss of a neighbour, and stale
@@ -47,4 +47,4 @@ class FreeTriangles {
   std::array<std::vector<Index>, 4> buckets_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

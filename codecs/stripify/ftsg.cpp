@@ -8,7 +8,7 @@
 #include "codecs/stripify/free_triangles.h"
 #include "codecs/stripify/linked_paths.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 enum class Preference { first_edge, fewest_neighbors, alternation };
@@ -243,8 +243,8 @@ class Concatenation {
   }
 
   void run() {
-    constexpr int kMostSwaps = 6;  // that a link can take part in
-    for (int swaps = 0; swaps <= kMostSwaps; ++swaps)
+    constexpr int kMaxSwaps = 6;  // that a link can take part in
+    for (int swaps = 0; swaps <= kMaxSwaps; ++swaps)
       for (Index t = 0; t < paths_.triangle_count(); ++t)
         for (Index k = 0; k < 3; ++k) join_over(LinkedPaths::half_edge(t, k), swaps);
   }
@@ -297,4 +297,4 @@ Strips ftsg_alt(const StripInput& input, const StripOptions&) {
   return tree_strips(input, Preference::alternation);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // Strips from a spanning tree of the dual graph, found depth first from a triangle with the fewest
 // neighbours: dynamic programming cuts the tree into the fewest strips, among those into the ones
@@ -24,4 +24,4 @@ Strips ftsg_sgi(const StripInput& input, const StripOptions& options);
 /// neighbours that are not in the tree.
 Strips ftsg_alt(const StripInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 LinkedPaths::LinkedPaths(const DualGraph& graph, const Links& links,
                          std::span<const std::uint8_t> step_cost)
@@ -27,4 +27,4 @@ Links LinkedPaths::links() const {
   return links;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -7,7 +7,7 @@
 
 #include "codecs/stripify/emit.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A stripification under change: which edges are linked, what changing one costs, and whether it
 /// keeps the strips free of cycles.
@@ -100,4 +100,4 @@ class LinkedPaths {
   std::vector<std::uint8_t> linked_;     // a bit for each half-edge of a triangle
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -8,7 +8,7 @@
 #include "codecs/stripify/emit.h"
 #include "codecs/stripify/free_triangles.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 enum class Turn : std::uint8_t { none, before, after };
@@ -183,4 +183,4 @@ Strips mstrip(const StripInput& input, const StripOptions& options) {
   return emit_strips(input, graph, MStrip(graph, options.goal).run());
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Two strips grown concurrently. [Silva02; Vanecek05 §2.2, §8.1 MSS and MSV with -m 2]
 ///
@@ -20,4 +20,4 @@ namespace pstrip {
 /// cost  O(n)
 Strips mstrip(const StripInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

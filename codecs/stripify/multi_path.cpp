@@ -7,7 +7,7 @@
 
 #include "codecs/stripify/path_index.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 /// Triangles in queues, each in one at most. Every operation is O(1), but that `first` looks
@@ -233,4 +233,4 @@ Strips multi_path_weighted(const StripInput& input, const StripOptions& options)
   return emit_strips(input, graph, MultiPath(graph, costs, kCosts).run());
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

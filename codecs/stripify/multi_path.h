@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/emit.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // Many paths grown at once. A triangle is open to as many others as it has edges left to link;
 // next is always one of the lowest class of
@@ -38,4 +38,4 @@ Links multi_path_links(const DualGraph& graph);
 /// cost  O(n)
 Strips multi_path_weighted(const StripInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cassert>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 using HalfEdge = LinkedPaths::HalfEdge;
 
@@ -112,4 +112,4 @@ void PathIndex::flip(HalfEdge h) {
   if (detours_ > max_detours_) number();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/linked_paths.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Positions that are breaks, with the next one either way in a few steps.
 class BreakSet {
@@ -50,4 +50,4 @@ class PathIndex {
   int max_detours_ = 0;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

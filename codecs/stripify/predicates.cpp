@@ -9,7 +9,7 @@
 // Expansions need each operation rounded on its own: this file is compiled with
 // -ffp-contract=off.
 
-namespace pstrip::predicates {
+namespace pstrips::inline codecs::predicates {
 namespace {
 
 /// The sum of `size` doubles in ascending order of magnitude that do not overlap, none of them 0.
@@ -245,4 +245,4 @@ int in_circle_exact(const Point2& a, const Point2& b, const Point2& c, const Poi
                                      : in_circle_sign<Integer>(a, b, c, d);
 }
 
-}  // namespace pstrip::predicates
+}  // namespace pstrips::inline codecs::predicates

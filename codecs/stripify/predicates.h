@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // Signs of determinants of points in the plane, exactly right for all finite doubles.
 //
@@ -60,4 +60,4 @@ inline int in_circle(const Point2& a, const Point2& b, const Point2& c, const Po
   return predicates::in_circle_exact(a, b, c, d);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

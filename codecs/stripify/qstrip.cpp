@@ -4,7 +4,7 @@
 
 #include "codecs/stripify/face_walk.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 Strips strips_of(const StripFaces& faces, StripGoal goal) {
@@ -35,4 +35,4 @@ Strips qstrip_polygons(const PolygonInput& input, const StripOptions& options) {
   return strips_of(make_strip_faces(input), options.goal);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// QStrip: greedy strips of whole quads, whose diagonals are chosen when the strip is complete, so
 /// that it has the fewest swaps. [Vanecek05 §7.3]
@@ -21,4 +21,4 @@ namespace pstrip {
 Strips qstrip(const StripInput& input, const StripOptions& options);
 Strips qstrip_polygons(const PolygonInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// A small generator whose sequence is the same everywhere: xorshift with 64 bits of state.
 /// [Marsaglia03 §3]
@@ -26,4 +26,4 @@ class Random {
   std::uint64_t state_;  // never 0: the seed leaves the low bits of the constant alone
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -6,7 +6,7 @@
 
 #include "codecs/stripify/free_triangles.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 class Sgi {
@@ -90,4 +90,4 @@ Strips sgi_vertices(const StripInput& input, const StripOptions&) {
 
 Links sgi_strips_links(const DualGraph& graph) { return Sgi(graph).run(fewest_neighbors<true>); }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

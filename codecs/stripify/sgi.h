@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/emit.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // Greedy strips after SGI's tomesh, as [Vanecek02 §3] restates it: start at a triangle with the
 // fewest free neighbours and step on, in this direction only, until no free neighbour is left.
@@ -25,4 +25,4 @@ Strips sgi_vertices(const StripInput& input, const StripOptions& options);
 /// that go on from there: bunny in 490 strips with 14,411 swaps instead of 647 with 16,741. O(n).
 Links sgi_strips_links(const DualGraph& graph);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

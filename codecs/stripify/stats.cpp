@@ -5,7 +5,7 @@
 
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // Calls visit(strip) for each run between restarts.
@@ -63,4 +63,4 @@ double cache_misses_per_triangle(std::span<const Index> strips, std::uint32_t ca
   return triangles == 0 ? 0 : static_cast<double>(loads) / static_cast<double>(triangles);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

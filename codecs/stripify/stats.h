@@ -5,7 +5,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// The figures of an index map without symbols whose strips all have triangles.
 struct StripStats {
@@ -24,4 +24,4 @@ StripStats strip_stats(std::span<const Index> strips);
 /// wedges, over triangles. Restarts leave the cache alone. 0 without triangles.
 double cache_misses_per_triangle(std::span<const Index> strips, std::uint32_t cache_entries);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -1,6 +1,6 @@
 #include "codecs/stripify/straight_runs.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 StraightRuns::StraightRuns(const StripFaces& faces)
     : faces_(faces), place_of_(2 * std::size_t{faces.count()}, kNone) {
@@ -64,4 +64,4 @@ std::span<const Index> StraightRuns::longest(Index least) {
   return {};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

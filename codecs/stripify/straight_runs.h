@@ -7,7 +7,7 @@
 
 #include "codecs/stripify/face_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Rows of free quads, each entered and left over opposite edges, while faces are taken. Every quad
 /// is in two rows, one either way across it.
@@ -44,4 +44,4 @@ class StraightRuns {
   std::priority_queue<std::pair<Index, Index>> queue_;  // length, ~run; old lengths are left behind
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/free_triangles.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 class StraightStrips {
@@ -67,4 +67,4 @@ class StraightStrips {
 
 Links straight_strips(const DualGraph& graph) { return StraightStrips(graph).run(); }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

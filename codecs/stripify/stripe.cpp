@@ -5,7 +5,7 @@
 #include "codecs/stripify/face_walk.h"
 #include "codecs/stripify/straight_runs.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 enum class Tie { lookahead, no_swap };
@@ -106,4 +106,4 @@ Strips stripe_noswap_polygons(const PolygonInput& input, const StripOptions&) {
   return strips_of(make_strip_faces(input), Tie::no_swap);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

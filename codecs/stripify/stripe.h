@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 // STRIPE: first patches of quads, row by row, then greedy strips over the faces that are left.
 // [Evans96; Vanecek05 §2.2, §7.4, §8.1]
@@ -30,4 +30,4 @@ Strips stripe_lookahead_polygons(const PolygonInput& input, const StripOptions& 
 Strips stripe_noswap(const StripInput& input, const StripOptions& options);
 Strips stripe_noswap_polygons(const PolygonInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -14,7 +14,7 @@
 #include "codecs/stripify/stripe.h"
 #include "codecs/stripify/tunneling.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr NamedStripifier kStripifiers[] = {
@@ -86,4 +86,4 @@ const NamedPointStripifier* find_point_stripifier(std::string_view name) {
   return find_named(point_stripifiers(), name);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

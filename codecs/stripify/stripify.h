@@ -9,7 +9,7 @@
 #include "core/mesh.h"
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Triangles to cover, as triples of wedges. An edge joins two triangles only where both of its
 /// wedges are the same, so strips never cross an attribute seam; nor do they cross groups.
@@ -45,7 +45,7 @@ inline constexpr std::uint32_t kEffortFast = 1;
 inline constexpr std::uint32_t kEffortHigh = 500;
 inline constexpr std::uint32_t kEffortMax = 2500;
 
-inline constexpr std::uint32_t kMostStripPrice = 1000;
+inline constexpr std::uint32_t kMaxStripPrice = 1000;
 
 struct StripOptions {
   std::uint32_t seed = 1;  ///< for the algorithms that choose at random; same seed, same strips
@@ -104,4 +104,4 @@ std::span<const NamedPointStripifier> point_stripifiers();
 /// nullptr when there is no such name.
 const NamedPointStripifier* find_point_stripifier(std::string_view name);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/random.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr Index tetra_of(Index face) { return face / 4; }
@@ -298,4 +298,4 @@ TetraStrips tetra_multi_path(std::span<const Index> tetrahedra, Index vertex_cou
   return emit_tetra_strips(tetrahedra, graph, paths.links());
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

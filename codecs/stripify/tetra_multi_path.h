@@ -2,7 +2,7 @@
 
 #include "codecs/stripify/tetra_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Generalized strips of tetrahedra, few and of about the same length.
 ///
@@ -21,4 +21,4 @@ namespace pstrip {
 TetraStrips tetra_multi_path(std::span<const Index> tetrahedra, Index vertex_count,
                              const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

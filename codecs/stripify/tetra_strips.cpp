@@ -5,7 +5,7 @@
 #include <cassert>
 #include <compare>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // The corners of the face across from each corner, counter-clockwise from outside.
@@ -210,4 +210,4 @@ TetraStripStats tetra_strip_stats(const TetraStrips& strips) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

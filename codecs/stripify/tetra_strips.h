@@ -7,7 +7,7 @@
 #include "codecs/stripify/stripify.h"
 #include "core/tetra.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// Which tetrahedra a strip may step between.
 ///
@@ -49,4 +49,4 @@ struct TetraStripStats {
 /// Precondition: the strips are whole.
 TetraStripStats tetra_strip_stats(const TetraStrips& strips);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

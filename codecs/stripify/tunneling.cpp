@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/sgi.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using HalfEdge = LinkedPaths::HalfEdge;
@@ -240,4 +240,4 @@ Strips tunneling(const StripInput& input, const StripOptions& options) {
   return emit_strips(input, graph, paths.links());
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -3,7 +3,7 @@
 #include "codecs/stripify/linked_paths.h"
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 inline constexpr int kAnySwaps = 1 << 30;
 
@@ -28,4 +28,4 @@ void dig_tunnels(LinkedPaths& paths, const StripOptions& options, int most_swaps
 /// SGI's strips (sgi_strips_links), joined by tunnels.
 Strips tunneling(const StripInput& input, const StripOptions& options);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

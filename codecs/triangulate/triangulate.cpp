@@ -5,7 +5,7 @@
 
 #include "core/point.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr std::size_t kMaxEarClipping = 256;  // ear clipping is cubic at worst
@@ -144,4 +144,4 @@ Triangulation triangulate(const Mesh& mesh) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -4,7 +4,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// The triangles that stand for the polygons of a mesh.
 struct Triangulation {
@@ -20,4 +20,4 @@ struct Triangulation {
 /// with two corners at one vertex give nothing. Same mesh, same triangles.
 Triangulation triangulate(const Mesh& mesh);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

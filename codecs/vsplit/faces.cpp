@@ -8,7 +8,7 @@
 #include "codecs/vsplit/in_order.h"
 #include "codecs/vsplit/level.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 using Triple = std::array<Index, 3>;
@@ -152,10 +152,10 @@ Mesh mesh_to_decode(const Mesh& source, const StripMap& strips, const Recording&
       wedge_vertex.push_back(vertex_to[source.vertex_of(w)]);
   }
   Bytes positions;
-  if (mesh.placement == Placement::free)
+  if (mesh.placement == Placement::optimal)
     positions = in_order(source.position, recording.vertex_from).data;
   return mesh_of(Level::full(mesh, std::move(map), std::move(wedge_vertex), std::move(positions)))
       .value();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

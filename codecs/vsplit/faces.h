@@ -3,7 +3,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "codecs/vsplit/record.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// What a recording needs besides to give the source mesh back.
 struct FaceRecord {
@@ -28,4 +28,4 @@ FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, cons
 /// Precondition: `recording.mesh.faces` is what record_faces() found.
 Mesh mesh_to_decode(const Mesh& source, const StripMap& strips, const Recording& recording);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

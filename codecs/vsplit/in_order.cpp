@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 template <std::size_t kBytes>
@@ -38,4 +38,4 @@ Attribute in_order(const Attribute& from, std::span<const Index> order) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

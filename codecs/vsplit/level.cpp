@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 Attribute prefix_of(const Attribute& all, Index elements) {
@@ -76,8 +76,8 @@ Level::Level(const ProgressiveMesh& mesh)
   auto resolved = resolve(mesh.base_map);
   assert(resolved);
   resolved_ = std::move(resolved).value();
-  if (mesh.encoding == MapEncoding::offset_difference) map_ = mesh.base_map;
-  if (mesh.placement == Placement::free)
+  if (mesh.encoding == MapEncoding::offset) map_ = mesh.base_map;
+  if (mesh.placement == Placement::optimal)
     moved_positions_.assign(
         mesh.position.data.begin(),
         mesh.position.data.begin() +
@@ -92,9 +92,9 @@ Level Level::full(const ProgressiveMesh& mesh, std::vector<Index> resolved,
   out.mesh_ = &mesh;
   out.next_ = static_cast<Index>(mesh.vsplits.size());
   out.wedge_count_ = mesh.wedges;
-  out.new_wedge_ = mesh.wedge_places.size();
-  out.place_ = mesh.places.size();
-  out.carried_ = mesh.carried.size();
+  out.new_wedge_ = mesh.wedge_offset_counts.size();
+  out.map_offset_ = mesh.map_offsets.size();
+  out.reassigned_ = mesh.reassigned.size();
   out.resolved_ = std::move(resolved);
   out.wedge_vertex_ = std::move(wedge_vertex);
   out.moved_positions_ = std::move(positions);
@@ -109,18 +109,19 @@ void Level::refine(Index vsplits) {
     const Vsplit& split = mesh.vsplits[next_];
     const Index vertex = vertex_count();
     if (mesh.single_wedges) {
-      for (Index i = 0; i < split.places; ++i) write(mesh.places[place_++], vertex);
+      for (Index i = 0; i < split.map_offsets; ++i) write(mesh.map_offsets[map_offset_++], vertex);
       ++wedge_count_;
     } else {
-      for (Index i = 0; i < split.carried; ++i) wedge_vertex_[mesh.carried[carried_++]] = vertex;
+      for (Index i = 0; i < split.reassigned; ++i)
+        wedge_vertex_[mesh.reassigned[reassigned_++]] = vertex;
       for (Index i = 0; i < split.wedges; ++i) {
         wedge_vertex_.push_back(vertex);
-        for (Index k = mesh.wedge_places[new_wedge_++]; k > 0; --k)
-          write(mesh.places[place_++], wedge_count_);
+        for (Index k = mesh.wedge_offset_counts[new_wedge_++]; k > 0; --k)
+          write(mesh.map_offsets[map_offset_++], wedge_count_);
         ++wedge_count_;
       }
     }
-    if (mesh.placement != Placement::free) continue;
+    if (mesh.placement != Placement::optimal) continue;
     const auto born =
         mesh.position.data.begin() + static_cast<std::ptrdiff_t>(vertex * position_bytes);
     moved_positions_.insert(moved_positions_.end(), born,
@@ -149,7 +150,7 @@ void Level::write(Index offset, Index wedge) {
 // whole after each refine(). [spec/vsplit.md §3]
 bool Level::follows_chains() const {
   constexpr std::uint64_t kEntriesAPlace = 64;
-  return followed_ <= kEntriesAPlace * (map_.size() + place_);
+  return followed_ <= kEntriesAPlace * (map_.size() + map_offset_);
 }
 
 void Level::follow_chains(Index offset, Index wedge) {
@@ -170,7 +171,8 @@ void Level::follow_chains(Index offset, Index wedge) {
 }
 
 ByteView Level::positions() const {
-  const Bytes& all = mesh_->placement == Placement::free ? moved_positions_ : mesh_->position.data;
+  const Bytes& all =
+      mesh_->placement == Placement::optimal ? moved_positions_ : mesh_->position.data;
   return ByteView(all).first(mesh_->position.element_bytes() * vertex_count());
 }
 
@@ -244,4 +246,4 @@ std::vector<StripRange> strip_ranges(std::span<const Index> map) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -6,14 +6,14 @@
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// One level of a progressive mesh while it is refined: the decoding state machine.
 /// [spec/vsplit.md §3; Kim04 §3.2]
 ///
 /// Refers to the mesh, which must outlive it and may grow (a StreamDecoder appends packets). Its
-/// records must be safe, as both readers guarantee: parents, carried wedges and places in range,
-/// no place on a restart, every chain of the base map ending at a wedge.
+/// records must be safe, as both readers guarantee: parents, reassigned wedges and map offsets in
+/// range, no place on a restart, every chain of the base map ending at a wedge.
 class Level {
  public:
   /// The base. Cost O(base and map size).
@@ -29,7 +29,8 @@ class Level {
 
   /// Applies the next `vsplits` records, those the mesh has not got left out.
   ///
-  /// cost  O(what they rewrite): the places and the entries whose chains end there. Hostile records
+  /// cost  O(what they rewrite): the map offsets and the entries whose chains end there. Hostile
+  /// records
   ///       that rewrite long chains again and again cost O(map) a call instead
   void refine(Index vsplits);
   /// Frees what only refine() needs; it must not be called again.
@@ -52,15 +53,15 @@ class Level {
   std::span<const Index> resolved() const { return resolved_; }
   /// Position bytes of all vertices of the level, one element each.
   ByteView positions() const;
-  /// The places that records from..vsplits_done() rewrote, as offsets into the map.
+  /// The map offsets that records from..vsplits_done() rewrote, as offsets into the map.
   /// Precondition: `from` was vsplits_done() once.
   struct Mark {
     Index vsplit = 0;
-    std::size_t place = 0;
+    std::size_t map_offset = 0;
   };
-  Mark mark() const { return {next_, place_}; }
-  std::span<const Index> places_since(const Mark& mark) const {
-    return std::span(mesh_->places).subspan(mark.place, place_ - mark.place);
+  Mark mark() const { return {next_, map_offset_}; }
+  std::span<const Index> offsets_since(const Mark& mark) const {
+    return std::span(mesh_->map_offsets).subspan(mark.map_offset, map_offset_ - mark.map_offset);
   }
 
  private:
@@ -72,7 +73,7 @@ class Level {
   const ProgressiveMesh* mesh_ = nullptr;
   Index next_ = 0;  // first record not yet applied
   Index wedge_count_ = 0;
-  std::size_t new_wedge_ = 0, place_ = 0, carried_ = 0;  // next element of the mesh's lists
+  std::size_t new_wedge_ = 0, map_offset_ = 0, reassigned_ = 0;  // next element of the mesh's lists
   std::vector<Index> resolved_;
   std::vector<Index> map_;           // with symbols; empty when there are none
   std::vector<Index> wedge_vertex_;  // empty with single wedges
@@ -101,4 +102,4 @@ struct StripRange {
 };
 std::vector<StripRange> strip_ranges(std::span<const Index> map);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -13,7 +13,7 @@
 #include "codecs/vsplit/in_order.h"
 #include "core/touch.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 namespace {
 
 // An entry of the map with all that a collapse asks of it: entries are visited in an order that
@@ -98,7 +98,7 @@ Recorder::Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSeque
     : mesh_(mesh),
       sequence_(sequence),
       moves_kept_(!sequence.placements.empty()),
-      symbols_(encoding == MapEncoding::offset_difference),
+      symbols_(encoding == MapEncoding::offset),
       wedge_vertex_(mesh.wedge_vertex) {
   if (moves_kept_) moved_ = mesh.position;
   copy_map(strips.entries);
@@ -106,13 +106,13 @@ Recorder::Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSeque
   list_entries();
   find_triangles();
   out_.mesh.encoding = encoding;
-  out_.mesh.placement = moves_kept_ ? Placement::free : Placement::subset;
+  out_.mesh.placement = moves_kept_ ? Placement::optimal : Placement::subset;
   const std::size_t vsplits = mesh.vertex_count();  // all but those of the base, most of them
   removed_vertices_.reserve(vsplits);
   out_.levels.reserve(vsplits + 1);
   out_.mesh.vsplits.reserve(vsplits);
-  out_.mesh.wedge_places.reserve(mesh.wedge_count());
-  out_.mesh.places.reserve(strips.entries.size());
+  out_.mesh.wedge_offset_counts.reserve(mesh.wedge_count());
+  out_.mesh.map_offsets.reserve(strips.entries.size());
   if (moves_kept_) out_.mesh.parent_position.reserve(mesh.position.data.size());
 }
 
@@ -189,7 +189,7 @@ void Recorder::change_wedge(Index at, Index to, Index vertex) {
 }
 
 // Entry of a removed wedge: takes a symbol when the wedge that replaces it stands within two
-// places, the wedge itself otherwise (common edge and spiral, [Kim04 §3.4]).
+// map offsets, the wedge itself otherwise (common edge and spiral, [Kim04 §3.4]).
 //
 // No cycle can arise: an entry that stands for `to` at this moment has a chain of entries that
 // all do, and this one does not yet.
@@ -295,25 +295,25 @@ void Recorder::carry(Index wedge, Index kept) {
   }
   wedge_vertex_[wedge] = kept;
   for (Index e = first_entry_[wedge]; e < kRemoved; e = entry(e).next) change_wedge(e, wedge, kept);
-  out_.mesh.carried.push_back(wedge);
-  ++out_.mesh.vsplits.back().carried;
+  out_.mesh.reassigned.push_back(wedge);
+  ++out_.mesh.vsplits.back().reassigned;
 }
 
 // Entries of the wedge go over to its replacement; kNone for a wedge that has none.
 void Recorder::remove_wedge(Index wedge, Index replacement) {
-  std::vector<Index>& places = out_.mesh.places;
-  const std::size_t first = places.size();
-  for (Index e = first_entry_[wedge]; e < kRemoved; e = entry(e).next) places.push_back(e);
+  std::vector<Index>& map_offsets = out_.mesh.map_offsets;
+  const std::size_t first = map_offsets.size();
+  for (Index e = first_entry_[wedge]; e < kRemoved; e = entry(e).next) map_offsets.push_back(e);
   first_entry_[wedge] = kRemoved;
-  if (places.size() - first > 1)
-    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.end());
-  for (std::size_t i = first; i < places.size(); ++i) rewrite(places[i], replacement);
-  const auto count = static_cast<Index>(places.size() - first);
+  if (map_offsets.size() - first > 1)
+    std::sort(map_offsets.begin() + static_cast<std::ptrdiff_t>(first), map_offsets.end());
+  for (std::size_t i = first; i < map_offsets.size(); ++i) rewrite(map_offsets[i], replacement);
+  const auto count = static_cast<Index>(map_offsets.size() - first);
   removed_wedges_.push_back(wedge);
-  out_.mesh.wedge_places.push_back(count);
+  out_.mesh.wedge_offset_counts.push_back(count);
   Vsplit& vsplit = out_.mesh.vsplits.back();
   ++vsplit.wedges;
-  vsplit.places += count;
+  vsplit.map_offsets += count;
 }
 
 void Recorder::place(Index vertex, std::span<const double> position) {
@@ -330,9 +330,9 @@ void Recorder::end_removal() {
   ProgressiveMesh& mesh = out_.mesh;
   const Vsplit& vsplit = mesh.vsplits.back();
   turn_last_round(removed_wedges_, vsplit.wedges);
-  turn_last_round(mesh.wedge_places, vsplit.wedges);
-  turn_last_round(mesh.carried, vsplit.carried);
-  turn_last_round(mesh.places, vsplit.places);
+  turn_last_round(mesh.wedge_offset_counts, vsplit.wedges);
+  turn_last_round(mesh.reassigned, vsplit.reassigned);
+  turn_last_round(mesh.map_offsets, vsplit.map_offsets);
 }
 
 void Recorder::turn_lists_round() {
@@ -340,8 +340,8 @@ void Recorder::turn_lists_round() {
   out_.levels.push_back({triangles_, 0});
   std::ranges::reverse(out_.levels);
   std::ranges::reverse(mesh.vsplits);
-  for (auto* list :
-       {&removed_vertices_, &removed_wedges_, &mesh.wedge_places, &mesh.carried, &mesh.places})
+  for (auto* list : {&removed_vertices_, &removed_wedges_, &mesh.wedge_offset_counts,
+                     &mesh.reassigned, &mesh.map_offsets})
     std::ranges::reverse(*list);
   const std::size_t bytes = moved_.element_bytes();
   Bytes& positions = mesh.parent_position;
@@ -371,7 +371,7 @@ void Recorder::count_strips() {
 }
 
 // In order of appearance: the base in that of its map, then what stands nowhere in it, then what
-// the records bring. Numbers parents and carried wedges, too.
+// the records bring. Numbers parents and reassigned wedges, too.
 Recorder::Numbering Recorder::number_all() {
   ProgressiveMesh& mesh = out_.mesh;
   Numbering numbers{std::vector<Index>(mesh.vertices, kNone), {}};
@@ -405,7 +405,7 @@ Recorder::Numbering Recorder::number_all() {
   } else {
     for (const Index w : removed_wedges_) number(w, numbers.wedge_to, out_.wedge_from);
   }
-  for (Index& w : mesh.carried) w = numbers.wedge_to[w];
+  for (Index& w : mesh.reassigned) w = numbers.wedge_to[w];
   return numbers;
 }
 
@@ -434,7 +434,7 @@ Recording Recorder::finish(const StripMap& strips) && {
     mesh.face_attribute_formats.push_back({a.semantic, a.type, a.count, a.normalized, {}});
   mesh.vertices = mesh_.vertex_count();
   mesh.wedges = mesh_.wedge_count();
-  mesh.single_wedges = mesh_.wedge_vertex.empty() && mesh.carried.empty();
+  mesh.single_wedges = mesh_.wedge_vertex.empty() && mesh.reassigned.empty();
   turn_lists_round();
   count_strips();
   mesh.triangles = out_.levels.back().triangles;
@@ -459,4 +459,4 @@ Recording record(const Mesh& mesh, const StripMap& strips, const CollapseSequenc
   return std::move(recorder).finish(strips);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

@@ -6,7 +6,7 @@
 #include "codecs/simplify/simplify.h"
 #include "core/progressive_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline codecs {
 
 /// What a level of a recording shows.
 struct LevelCounts {
@@ -45,4 +45,4 @@ struct StripMap {
 Recording record(const Mesh& mesh, const StripMap& strips, const CollapseSequence& sequence,
                  MapEncoding encoding);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline codecs

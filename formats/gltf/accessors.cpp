@@ -4,7 +4,7 @@
 
 #include "formats/gltf/container.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 std::string pointer(std::string_view list, std::uint64_t i) {
@@ -199,4 +199,4 @@ Result<std::vector<Index>> read_indices(Data& data, const Document& document, In
   return out;
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

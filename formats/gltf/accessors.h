@@ -5,7 +5,7 @@
 #include "formats/gltf/document.h"
 #include "formats/gltf/gltf.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 
 /// What a reader may still allocate.
 class Budget {
@@ -65,4 +65,4 @@ Result<Bytes> read_attribute(Data& data, const Document& document, Index accesso
 Result<std::vector<Index>> read_indices(Data& data, const Document& document, Index accessor,
                                         std::uint64_t vertices);
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -4,7 +4,7 @@
 #include <array>
 #include <limits>
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
@@ -193,4 +193,4 @@ std::string percent_encode(std::string_view path) {
   return out;
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

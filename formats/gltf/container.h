@@ -8,7 +8,7 @@
 #include "core/bytes.h"
 #include "core/result.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 
 /// The parts of a .glb or .gltf file; all views point into it.
 struct Container {
@@ -41,4 +41,4 @@ std::string base64(ByteView data);
 Result<std::string> decode_relative_uri(std::string_view uri);
 std::string percent_encode(std::string_view path);
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

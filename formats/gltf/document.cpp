@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 using nlohmann::json;
@@ -593,4 +593,4 @@ Result<Document> parse(std::string_view text, std::uint64_t json_offset, const L
   return out;
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

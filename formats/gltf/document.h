@@ -11,7 +11,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 
 // What a glTF file says in JSON, as plain structs. Every index is kNone or in range; offsets and
 // lengths are as the file wrote them and not yet compared with the bytes.
@@ -123,4 +123,4 @@ inline constexpr std::string_view kBinKey = "gltf/bin";    ///< the bytes of Doc
 inline constexpr std::string_view kPrimitivesKey = "gltf/primitives";  ///< [primitives.h]
 inline constexpr std::string_view kChunksKey = "gltf/chunks";          ///< Container::other_chunks
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <set>
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 constexpr unsigned bit(ComponentType type, bool normalized) {
@@ -186,4 +186,4 @@ std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options,
   return out;
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -6,7 +6,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 
 /// A wedge attribute in a form that glTF takes.
 struct Fitted {
@@ -33,4 +33,4 @@ struct FitOptions {
 std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options,
                                    std::vector<std::string>& dropped);
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

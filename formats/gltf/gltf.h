@@ -10,7 +10,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// Reads a glTF 2.0 asset, .glb or .gltf by its first bytes. [glTF 2.0; spec/references.md]
 ///
@@ -75,4 +75,4 @@ struct GltfFiles {
 /// cost    O(size); same model and options, same bytes
 Result<GltfFiles> write_gltf(const Model& model, const GltfWriteOptions& options = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -8,7 +8,7 @@
 
 #include "formats/gltf/document.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 using nlohmann::json;
@@ -213,4 +213,4 @@ Result<void> keep_rest(Document& document, std::string_view skeleton) {
   return {};
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -8,7 +8,7 @@
 
 #include "core/equal_elements.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 tl::unexpected<Error> refuse(ErrorCode code, std::string message, std::string path) {
@@ -405,4 +405,4 @@ bool PrimitiveMap::fits(const std::vector<Mesh>& model) const {
   });
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -4,7 +4,7 @@
 
 #include "formats/gltf/accessors.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 
 /// Where the primitives of the file stand in the model, for the way back.
 struct PrimitiveMap {
@@ -30,4 +30,4 @@ Result<PrimitiveMap> read_meshes(Data& data, const Document& document, const Lim
                                  Budget& budget, std::vector<Mesh>& out,
                                  std::vector<std::string>& dropped);
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -4,7 +4,7 @@
 #include "formats/gltf/container.h"
 #include "formats/gltf/primitives.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace gltf {
 namespace {
 
@@ -123,4 +123,4 @@ Result<Model> read_gltf(ByteView file, const ReadFile& read_file, const Limits& 
   return model;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

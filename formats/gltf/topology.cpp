@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 namespace {
 
 using Triangle = std::array<Index, 3>;
@@ -192,4 +192,4 @@ std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology t
   return out;
 }
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -7,7 +7,7 @@
 #include "formats/gltf/document.h"
 #include "formats/gltf/gltf.h"
 
-namespace pstrip::gltf {
+namespace pstrips::inline formats::gltf {
 
 /// The indices of one glTF primitive, wedges of the mesh.
 struct IndexList {
@@ -23,4 +23,4 @@ struct IndexList {
 std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology topology,
                                                 std::vector<std::string>& dropped);
 
-}  // namespace pstrip::gltf
+}  // namespace pstrips::inline formats::gltf

@@ -11,7 +11,7 @@
 #include "formats/gltf/primitives.h"
 #include "formats/gltf/topology.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace gltf {
 namespace {
 
@@ -522,4 +522,4 @@ Result<GltfFiles> write_gltf(const Model& model, const GltfWriteOptions& options
   return gltf::AssetWriter(model, options).write();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -5,7 +5,7 @@
 
 #include "core/numbers.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 constexpr std::string_view kFirstWord = "MeshVersionFormatted";
@@ -209,4 +209,4 @@ Bytes write_tetra_strips(const TetraStrips& strips) {
   return {bytes.begin(), bytes.end()};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

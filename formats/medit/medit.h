@@ -4,7 +4,7 @@
 #include "core/result.h"
 #include "core/tetra.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// Whether the text begins as MEDIT's does.
 bool looks_like_medit(ByteView file);
@@ -25,4 +25,4 @@ Result<TetraMesh> read_medit(ByteView file, const Limits& limits = {});
 /// Writes strips as text. [spec/tetra.md]
 Bytes write_tetra_strips(const TetraStrips& strips);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 Census take_census(std::string_view text) {
   Census out;
@@ -21,4 +21,4 @@ Census take_census(std::string_view text) {
   return out;
 }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

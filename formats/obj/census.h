@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 /// How many statements a text has at least: those that begin a line without a blank before them.
 struct Census {
@@ -15,4 +15,4 @@ struct Census {
 /// Looks at the beginnings of lines only; many times quicker than reading them.
 Census take_census(std::string_view text);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

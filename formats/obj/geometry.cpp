@@ -5,7 +5,7 @@
 
 #include "formats/obj/obj.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 namespace {
 
 /// A list with an element for each corner or vertex that stays empty until one differs from
@@ -241,4 +241,4 @@ void append(Geometry& all, const Geometry& more, const Extent& from, const Exten
   count(all.normals, more.normals, to.normals - from.normals);
 }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

@@ -11,7 +11,7 @@
 #include "core/result.h"
 #include "formats/obj/numbers.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 /// The lines of one kind that corners refer to; they may follow later in the file.
 struct Referenced {
@@ -96,4 +96,4 @@ Extent extent_of(const Geometry& geometry);
 /// those of the whole file in both.
 void append(Geometry& all, const Geometry& more, const Extent& from, const Extent& to);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

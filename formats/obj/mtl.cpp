@@ -9,7 +9,7 @@
 #include "formats/obj/names.h"
 #include "formats/obj/numbers.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 namespace {
 
 /// As many finite numbers as there are at the start of `text`, at most three.
@@ -187,4 +187,4 @@ std::string write_mtl(const Scene& scene, const std::vector<std::string>& names)
   return out;
 }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

@@ -8,7 +8,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 /// What a name in `usemtl` stands for when no .mtl file has it.
 Material named_material(std::string name);
@@ -23,4 +23,4 @@ Result<void> read_mtl(std::string_view text, Scene& scene, const Limits& limits)
 /// names  one a material: distinct, clean, not empty
 std::string write_mtl(const Scene& scene, const std::vector<std::string>& names);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

@@ -6,7 +6,7 @@
 #include "formats/obj/numbers.h"
 #include "formats/obj/obj.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 namespace {
 
 /// The length of the well-formed UTF-8 sequence at the start of `text`, else 0. [RFC3629 §4]
@@ -144,9 +144,9 @@ GroupName split_group_name(std::string_view name) {
   return out;
 }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 std::string obj_group_name(std::string_view object, std::string_view group) {
   std::string out;
@@ -162,4 +162,4 @@ std::string obj_group_name(std::string_view object, std::string_view group) {
   return out.append(group);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

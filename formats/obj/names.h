@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 std::string_view trimmed(std::string_view text);
 
@@ -33,4 +33,4 @@ struct GroupName {
 /// The inverse of obj_group_name.
 GroupName split_group_name(std::string_view name);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

@@ -10,7 +10,7 @@
 #include <limits>
 #include <string_view>
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 namespace {
 
 // Powers of ten that are exact in a double: m·10^e or m/10^-e of an m below 2^53 is then one
@@ -136,4 +136,4 @@ const char* parse_number(const char* p, const char* end, Number& out) {
 void append_number(std::string& out, float value) { append_shortest(out, value); }
 void append_number(std::string& out, double value) { append_shortest(out, value); }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

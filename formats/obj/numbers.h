@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 constexpr bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -28,4 +28,4 @@ bool fits_f32(double value);
 void append_number(std::string& out, float value);
 void append_number(std::string& out, double value);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

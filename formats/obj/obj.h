@@ -9,7 +9,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // Wavefront OBJ and MTL [WavefrontB1, WavefrontMtl], polygonal part: v vt vn, f l p, o g s,
 // mtllib usemtl, with the vertex colours that MeshLab and others append to `v`.
@@ -82,4 +82,4 @@ Result<ObjFiles> write_obj(const Model& model, std::string mtl_name, unsigned th
 /// "object/group"; '%' and '/' within an object are written "%25" and "%2F".
 std::string obj_group_name(std::string_view object, std::string_view group);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

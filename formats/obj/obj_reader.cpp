@@ -19,7 +19,7 @@
 #include "formats/obj/runs.h"
 #include "formats/obj/wedges.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 using obj::WedgeTable;
@@ -657,4 +657,4 @@ Result<Model> read_obj(ByteView file, const ReadFile& read_file, const Limits& l
   return obj::read_obj_in_runs(file, read_file, limits, obj::kRunBytes);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -13,7 +13,7 @@
 #include "formats/obj/numbers.h"
 #include "formats/obj/obj.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 void append_index(std::string& out, std::uint64_t index) {
@@ -473,4 +473,4 @@ Result<ObjFiles> write_obj(const Model& model, std::string mtl_name, unsigned th
   return ObjWriter(model, std::move(mtl_name), threads).write();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

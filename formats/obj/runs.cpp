@@ -5,7 +5,7 @@
 #include "formats/obj/names.h"
 #include "formats/obj/numbers.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 namespace {
 
 class RunReader {
@@ -79,4 +79,4 @@ void read_run(Run& run, std::string_view text, char line_end, const Limits& limi
   run.good = true;
 }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

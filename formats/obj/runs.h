@@ -6,7 +6,7 @@
 #include "core/scene.h"
 #include "formats/obj/geometry.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 /// A line of a run that only a reader of all lines before it understands: names, materials,
 /// relative indices, the first face after such a line.
@@ -46,4 +46,4 @@ inline constexpr std::size_t kRunBytes = 256 << 10;
 Result<Model> read_obj_in_runs(ByteView file, const ReadFile& read_file, const Limits& limits,
                                std::size_t run_bytes);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <numeric>
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 namespace {
 
 /// Builds the wedges of one vertex after the other.
@@ -126,4 +126,4 @@ class WedgeBuilder {
 
 WedgeTable build_wedges(const CornerTuples& in) { return WedgeBuilder(in).build(); }
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

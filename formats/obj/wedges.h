@@ -5,7 +5,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip::obj {
+namespace pstrips::inline formats::obj {
 
 /// The corners of a file and the tuples they refer to.
 struct CornerTuples {
@@ -32,4 +32,4 @@ struct WedgeTable {
 /// Cost O(corners · log of the most corners at a vertex), whatever the values.
 WedgeTable build_wedges(const CornerTuples& in);
 
-}  // namespace pstrip::obj
+}  // namespace pstrips::inline formats::obj

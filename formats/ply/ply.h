@@ -4,7 +4,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// Reads a PLY 1.0 file: ascii, binary little- or big-endian. [Turk94]
 ///
@@ -65,4 +65,4 @@ struct PlyWriteOptions {
 ///         or points
 Result<Bytes> write_ply(const Model& model, const PlyWriteOptions& options = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

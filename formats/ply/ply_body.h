@@ -6,7 +6,7 @@
 #include "formats/ply/ply_header.h"
 #include "formats/ply/ply_runs.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 /// A list property: `sizes` has a value count for each row, `values` all of them, packed.
 struct ListColumn {
@@ -96,4 +96,4 @@ std::size_t expected_bytes(const Element& element, std::span<const Source> sourc
 void write_rows(const Element& element, std::span<const Source> sources, Encoding encoding,
                 unsigned threads, Bytes& out);
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -10,7 +10,7 @@
 #include "formats/ply/ply_numbers.h"
 #include "formats/ply/ply_rows.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 /// Takes values out of an ascii body. Rows are lines.
@@ -441,10 +441,10 @@ BodyReader::BodyReader(ByteView file, std::uint64_t body, Encoding encoding,
       threads_(thread_count(threads)) {
   // Runs do not know what the others take. A value of two characters becomes eight bytes at most,
   // once in a run and once joined.
-  constexpr std::uint64_t kMostGrowth = 8;
+  constexpr std::uint64_t kMaxGrowth = 8;
   const std::uint64_t bytes = file.size() - body;
   if (encoding == Encoding::ascii && threads_ > 1 && bytes > run_bytes &&
-      bytes <= limits.memory_bytes / kMostGrowth)
+      bytes <= limits.memory_bytes / kMaxGrowth)
     runs_ = cut_into_runs(file, body, run_bytes, threads_);
 }
 
@@ -504,4 +504,4 @@ ByteView BodyReader::rest() const {
   return file_.subspan(at);
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -7,7 +7,7 @@
 #include "formats/ply/ply_numbers.h"
 #include "formats/ply/ply_rows.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 /// The text of a run of rows, in memory that grows and is used again for the next run.
@@ -196,4 +196,4 @@ void write_rows(const Element& element, std::span<const Source> sources, Encodin
   write_ascii(element, sources, threads, out);
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <optional>
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 struct TypeWord {
@@ -268,4 +268,4 @@ std::string line_of(ByteView file, std::uint64_t offset) {
   return "line " + std::to_string(line);
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -7,7 +7,7 @@
 #include "core/mesh.h"
 #include "core/result.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 enum class Encoding : std::uint8_t { ascii, little_endian, big_endian };
 
@@ -72,4 +72,4 @@ constexpr bool is_signed_integer(ComponentType type) {
   return type == ComponentType::i8 || type == ComponentType::i16 || type == ComponentType::i32;
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 constexpr std::string_view kHeaderKey = "ply/header", kElementsKey = "ply/elements";
@@ -109,4 +109,4 @@ Result<std::optional<Kept>> get_kept(const std::vector<Foreign>& foreign) {
   return kept;
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -7,7 +7,7 @@
 #include "core/scene.h"
 #include "formats/ply/ply_body.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 /// Values of a property that the mesh has no place for: scalars have an empty `sizes`.
 struct KeptColumn {
@@ -37,4 +37,4 @@ Result<std::optional<Kept>> get_kept(const std::vector<Foreign>& foreign);
 
 const Foreign* find_foreign(const std::vector<Foreign>& foreign, std::string_view key);
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 enum class Meaning : std::uint8_t { normal, color, texcoord };
@@ -313,4 +313,4 @@ std::vector<Property> properties_for(const Attribute& attribute, bool usual) {
   return out;
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -6,7 +6,7 @@
 
 #include "formats/ply/ply_header.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 inline constexpr std::string_view kWedgeVertex = "wedge_vertex";
 /// The remark that makes a vertex property of that name ours. See write_ply.
@@ -49,4 +49,4 @@ bool has_texcoord_list(const Element& face);
 /// usual  false asks for the second form at any rate
 std::vector<Property> properties_for(const Attribute& attribute, bool usual);
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 template <class T>
@@ -142,4 +142,4 @@ PSTRIP_PLY_NUMBER(float)
 PSTRIP_PLY_NUMBER(double)
 #undef PSTRIP_PLY_NUMBER
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

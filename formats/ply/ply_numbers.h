@@ -5,7 +5,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 /// Bytes that the longest number takes in ascii, a separator included.
 inline constexpr std::size_t kMaxNumberChars = 40;
@@ -138,4 +138,4 @@ bool parse_number(const char*& at, const char* end, T& value) {
   return true;
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

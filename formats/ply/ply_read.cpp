@@ -11,7 +11,7 @@
 #include "formats/ply/ply_numbers.h"
 #include "formats/ply/ply_wedges.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace ply {
 namespace {
 
@@ -181,14 +181,14 @@ class ModelReader {
 
   /// Refuses by the rows that the header announces, before the first is read.
   bool expect_room() {
-    constexpr std::uint64_t kMost = ~std::uint64_t{0};
+    constexpr std::uint64_t kMax = ~std::uint64_t{0};
     std::uint64_t bytes = 0;
     for (const Element& e : kept_.header.elements) {
       std::uint64_t row_bytes = 0;
       for (const Property& property : e.properties)
         row_bytes += property.is_list() ? 0 : size_of(property.type);
       if (row_bytes == 0) continue;
-      bytes += std::min(e.count, (kMost - bytes) / row_bytes) * row_bytes;
+      bytes += std::min(e.count, (kMax - bytes) / row_bytes) * row_bytes;
     }
     return bytes <= limits_.memory_bytes ||
            refuse({ErrorCode::over_limit,
@@ -473,4 +473,4 @@ Result<Model> read_ply(ByteView file, const Limits& limits) {
   return ply::read_ply_in_runs(file, limits, ply::kRunBytes);
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

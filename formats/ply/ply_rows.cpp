@@ -4,7 +4,7 @@
 
 #include "formats/ply/ply_numbers.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 template <std::size_t kBytes>
@@ -108,4 +108,4 @@ void move_rows(std::span<const Lane> lanes, std::size_t rows, Swap swap) {
     for (const Lane& lane : lanes) move_lane(lane, row, std::min(rows, row + block), swap);
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

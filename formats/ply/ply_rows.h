@@ -6,7 +6,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 template <class T>
 T swap_bytes(T value) {
@@ -40,4 +40,4 @@ void add_lane(std::vector<Lane>& lanes, const Lane& lane);
 /// Moves all rows of all lanes. `swap` names the end that is big-endian.
 void move_rows(std::span<const Lane> lanes, std::size_t rows, Swap swap);
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -6,7 +6,7 @@
 #include "core/parallel.h"
 #include "formats/ply/ply_numbers.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 /// Rows in text without LF. Lone CRs end rows, too.
@@ -54,4 +54,4 @@ std::vector<Run> cut_into_runs(ByteView file, std::uint64_t body, std::size_t ru
   return runs;
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

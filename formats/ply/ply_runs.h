@@ -6,7 +6,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 /// Where a stretch of whole lines of an ascii body starts.
 struct Run {
@@ -27,4 +27,4 @@ inline constexpr std::size_t kRunBytes = 256 << 10;
 /// read_ply() with runs of another size than kRunBytes, so that tests need no long files.
 Result<Model> read_ply_in_runs(ByteView file, const Limits& limits, std::size_t run_bytes);
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

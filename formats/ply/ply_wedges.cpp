@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 namespace {
 
 /// Corners listed by vertex, ascending within each.
@@ -110,4 +110,4 @@ CornerWedges wedges_of_corners(std::span<const Index> corner_vertices, Index ver
   return std::move(builder).take();
 }
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

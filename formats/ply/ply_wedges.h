@@ -5,7 +5,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip::ply {
+namespace pstrips::inline formats::ply {
 
 /// The wedges that texture coordinates a corner make of vertices.
 struct CornerWedges {
@@ -23,4 +23,4 @@ struct CornerWedges {
 CornerWedges wedges_of_corners(std::span<const Index> corner_vertices, Index vertex_count,
                                ByteView pairs, std::size_t pair_bytes);
 
-}  // namespace pstrip::ply
+}  // namespace pstrips::inline formats::ply

@@ -13,7 +13,7 @@
 #include "formats/ply/ply_numbers.h"
 #include "formats/ply/ply_rows.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace ply {
 namespace {
 
@@ -612,4 +612,4 @@ Result<Bytes> write_ply(const Model& model, const PlyWriteOptions& options) {
   return ply::ModelWriter(model, options).run();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 template <class T>
@@ -156,4 +156,4 @@ bool parse_component(std::string_view token, ComponentType type, std::byte* at) 
   return false;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -7,7 +7,7 @@
 #include "core/bytes.h"
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // Numbers as the XML and the text variant write them: decimals that read back to the same bits,
 // as short as they can be. [spec/xml.md §3]
@@ -83,4 +83,4 @@ class Tokens {
   std::string_view rest_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -6,7 +6,7 @@
 
 #include "core/numbers.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 constexpr bool parts_columns(char c) { return is_space(c) || c == ',' || c == ';'; }
@@ -72,4 +72,4 @@ Result<Model> read_xyz(ByteView file, const Limits& limits) {
   return model;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

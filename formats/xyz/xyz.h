@@ -4,7 +4,7 @@
 #include "core/result.h"
 #include "core/scene.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// Reads points in text, one a line: x y z, parted by blanks, commas or semicolons.
 ///
@@ -19,4 +19,4 @@ namespace pstrip {
 /// cost     O(size)
 Result<Model> read_xyz(ByteView file, const Limits& limits = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

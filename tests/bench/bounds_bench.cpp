@@ -19,7 +19,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "tests/support/models.h"
 
-namespace pstrip::bench {
+namespace pstrips::bench {
 namespace {
 
 constexpr double kShares[] = {0.5, 0.2, 0.05, 0.01};
@@ -112,12 +112,12 @@ int main(std::vector<std::string> models) {
     Shape source{positions_as_double(*mesh), {}};
     for (const Index w : triangulate(*mesh).corners) source.triangles.push_back(mesh->vertex_of(w));
     run(name, source, Placement::subset, Metric::qem, samples);
-    run(name, source, Placement::free, Metric::memoryless, samples);
+    run(name, source, Placement::optimal, Metric::memoryless, samples);
   }
   return 0;
 }
 
 }  // namespace
-}  // namespace pstrip::bench
+}  // namespace pstrips::bench
 
-int main(int argc, char** argv) { return pstrip::bench::main({argv + 1, argv + argc}); }
+int main(int argc, char** argv) { return pstrips::bench::main({argv + 1, argv + argc}); }

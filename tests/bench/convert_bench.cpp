@@ -26,12 +26,12 @@
 #include "converters/level_bounds.h"
 #include "converters/level_cost.h"
 #include "converters/strip_mesh.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/payload/digest.h"
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Time {
@@ -127,8 +127,7 @@ void run_stages(const std::string& input, Stages& stages) {
   stages.run("strips",
              [&] { strips = strip_mesh(mesh, triangles, *find_stripifier("best"), {}, cost); });
   Recording recording;
-  stages.run("record",
-             [&] { recording = record(mesh, strips, sequence, MapEncoding::offset_difference); });
+  stages.run("record", [&] { recording = record(mesh, strips, sequence, MapEncoding::offset); });
   stages.run("faces", [&] {
     recording.mesh.faces = record_faces(mesh, triangles, strips, recording, false).faces;
   });
@@ -182,7 +181,7 @@ void measure_all(int rounds) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
 int main(int argc, char** argv) {
   int rounds = 5;
@@ -195,12 +194,12 @@ int main(int argc, char** argv) {
       continue;
     }
     any = true;
-    const auto file = pstrip::load(argv[i]);
+    const auto file = pstrips::load(argv[i]);
     if (!file || file->is_progressive()) {
       fmt::print(stderr, "cannot read {}\n", argument);
       return 1;
     }
-    pstrip::measure(argv[i], std::get<pstrip::Model>(file->content).meshes.front(), rounds);
+    pstrips::measure(argv[i], std::get<pstrips::Model>(file->content).meshes.front(), rounds);
   }
-  if (!any) pstrip::measure_all(rounds);
+  if (!any) pstrips::measure_all(rounds);
 }

@@ -15,7 +15,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Sample {
@@ -47,7 +47,7 @@ void refine(benchmark::State& state, const Sample& sample) {
   }
   state.SetItemsProcessed(state.iterations() * sample.vsplits());  // vsplits/s
   state.counters["places_per_vsplit"] =
-      static_cast<double>(sample.mesh().places.size()) / static_cast<double>(sample.vsplits());
+      static_cast<double>(sample.mesh().map_offsets.size()) / static_cast<double>(sample.vsplits());
 }
 
 /// Bytes to the full level: parsing, checksums, checks, vsplits; `slice` bytes a call, 0 is all at
@@ -108,7 +108,7 @@ void add(const std::string& name, Run run) {
 void add_model(const std::string& name, const Mesh& mesh) {
   Model model;
   model.meshes = {mesh};
-  for (const MapEncoding encoding : {MapEncoding::naive, MapEncoding::offset_difference}) {
+  for (const MapEncoding encoding : {MapEncoding::naive, MapEncoding::offset}) {
     const auto sample = std::make_shared<Sample>();
     sample->strips = encode(model, {.encoding = encoding}).value();
     sample->file = write_binary(sample->strips).value();
@@ -138,11 +138,11 @@ void add_models() {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  pstrip::add_models();
+  pstrips::add_models();
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -38,7 +38,7 @@
 #include <assimp/Importer.hpp>
 #endif
 
-namespace pstrip::bench {
+namespace pstrips::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -402,10 +402,10 @@ bool run(const Arguments& arguments, const fs::path& folder) {
 }
 
 }  // namespace
-}  // namespace pstrip::bench
+}  // namespace pstrips::bench
 
 int main(int argc, char** argv) {
-  pstrip::bench::Arguments arguments;
+  pstrips::bench::Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
     if (argument == "--ours")
@@ -417,7 +417,7 @@ int main(int argc, char** argv) {
   }
   std::string name = (std::filesystem::temp_directory_path() / "files_bench.XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) return EXIT_FAILURE;
-  const bool good = pstrip::bench::run(arguments, name);
+  const bool good = pstrips::bench::run(arguments, name);
   std::filesystem::remove_all(name);
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -17,7 +17,7 @@
 #include "tests/support/models.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr Index kLevels = 20;
@@ -103,11 +103,11 @@ void add_models() {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  pstrip::add_models();
+  pstrips::add_models();
   benchmark::RunSpecifiedBenchmarks();
 }

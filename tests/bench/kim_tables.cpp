@@ -22,7 +22,7 @@
 
 namespace {
 
-using namespace pstrip;
+using namespace pstrips;
 namespace fs = std::filesystem;
 
 constexpr std::array kFilters = {"none", "stss", "dtfs"};
@@ -44,7 +44,7 @@ Recordings record_both(const Mesh& mesh, const NamedStripifier& stripifier) {
                                               .attribute_count = 0},
                                              {.target_triangles = triangles.face.size() / 20});
   return {record(mesh, strips, sequence, MapEncoding::naive),
-          record(mesh, strips, sequence, MapEncoding::offset_difference)};
+          record(mesh, strips, sequence, MapEncoding::offset)};
 }
 
 // Records with a parent. They come first; lone vertices, which the paper does not split, follow.
@@ -55,7 +55,7 @@ std::size_t splits_of(const ProgressiveMesh& mesh) {
 }
 
 double places_per_split(const ProgressiveMesh& mesh) {
-  return static_cast<double>(mesh.places.size()) /
+  return static_cast<double>(mesh.map_offsets.size()) /
          static_cast<double>(std::max<std::size_t>(splits_of(mesh), 1));
 }
 

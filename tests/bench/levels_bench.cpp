@@ -31,7 +31,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 
-namespace pstrip::bench {
+namespace pstrips::bench {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -90,7 +90,7 @@ Timed ours_recorded(const Shape& source, std::uint64_t target) {
   const double start = cpu_seconds();
   const CollapseSequence sequence =
       simplify({source.positions, {}, source.triangles, {}, {}, 0}, {.target_triangles = target});
-  const Recording recording = record(mesh, strips, sequence, MapEncoding::offset_difference);
+  const Recording recording = record(mesh, strips, sequence, MapEncoding::offset);
   const double seconds = cpu_seconds() - start;
   Timed out = ours(source, {.target_triangles = target});
   out.seconds = recording.mesh.triangles == mesh.face_count() ? seconds : 0;
@@ -148,8 +148,8 @@ const Contender kContenders[] = {
     {"subset-qem", true, ours<Placement::subset, Metric::qem>},
     {"subset-memoryless+record", true, ours_recorded},
     {"subset-memoryless", true, ours<Placement::subset, Metric::memoryless>},
-    {"optimal-qem", true, ours<Placement::free, Metric::qem>},
-    {"optimal-memoryless", true, ours<Placement::free, Metric::memoryless>},
+    {"optimal-qem", true, ours<Placement::optimal, Metric::qem>},
+    {"optimal-memoryless", true, ours<Placement::optimal, Metric::memoryless>},
     {"openmesh", false, openmesh},
 #ifdef PSTRIPS_CGAL
     {"cgal-gh", false, cgal_garland_heckbert},
@@ -212,10 +212,10 @@ Options parse(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace pstrip::bench
+}  // namespace pstrips::bench
 
 int main(int argc, char** argv) {
-  using namespace pstrip;
+  using namespace pstrips;
   const bench::Options options = bench::parse(argc, argv);
   fmt::print("model,simplifier,share,source_triangles,triangles,seconds,rms,hausdorff\n");
   bool any = false;

@@ -12,7 +12,7 @@
 
 #include "tests/bench/levels_peers.h"
 
-namespace pstrip::bench {
+namespace pstrips::bench {
 namespace {
 
 namespace Sms = CGAL::Surface_mesh_simplification;
@@ -81,4 +81,4 @@ Timed cgal_lindstrom_turk(const Shape& source, std::uint64_t target) {
   });
 }
 
-}  // namespace pstrip::bench
+}  // namespace pstrips::bench

@@ -9,7 +9,7 @@
 // itself: what the library's user has to do before, such as building its half-edge mesh, does not
 // count.
 
-namespace pstrip::bench {
+namespace pstrips::bench {
 
 struct Shape {
   std::vector<double> positions;  ///< 3 a vertex
@@ -29,4 +29,4 @@ Timed cgal_garland_heckbert(const Shape& source, std::uint64_t target_triangles)
 Timed cgal_lindstrom_turk(const Shape& source, std::uint64_t target_triangles);
 #endif
 
-}  // namespace pstrip::bench
+}  // namespace pstrips::bench

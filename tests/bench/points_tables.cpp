@@ -23,7 +23,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 #endif
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // Processor time of this program, so that others on the machine count less.
@@ -143,10 +143,10 @@ void print_tetra_tables(const std::vector<std::string>& files) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
 int main(int argc, char** argv) {
   const std::vector<std::string> files(argv + 1, argv + argc);
-  pstrip::print_point_tables(files);
-  pstrip::print_tetra_tables(files);
+  pstrips::print_point_tables(files);
+  pstrips::print_tetra_tables(files);
 }

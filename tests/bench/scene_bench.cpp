@@ -11,7 +11,7 @@
 #include "converters/encode.h"
 #include "tests/support/scenes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr int kSteps = 50, kRowEvery = 5;
@@ -82,6 +82,6 @@ void run(const char* svg) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
-int main(int argc, char** argv) { pstrip::run(argc > 1 ? argv[1] : nullptr); }
+int main(int argc, char** argv) { pstrips::run(argc > 1 ? argv[1] : nullptr); }

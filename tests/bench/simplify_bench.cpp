@@ -22,7 +22,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Task {
@@ -163,11 +163,11 @@ void add_tasks() {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  pstrip::add_tasks();
+  pstrips::add_tasks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
 }

@@ -14,7 +14,7 @@
 #include "tests/support/models.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::StripMesh;
@@ -86,11 +86,11 @@ void add_models() {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  pstrip::add_models();
+  pstrips::add_models();
   benchmark::RunSpecifiedBenchmarks();
 }

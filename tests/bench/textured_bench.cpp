@@ -35,16 +35,16 @@
 #include "tests/support/rasterizer.h"
 #include "tests/support/seamed_meshes.h"
 
-namespace pstrip::bench {
+namespace pstrips::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace pstrip::test;
+using namespace pstrips::test;
 
 constexpr double kShares[] = {0.2, 0.05, 0.01};
 constexpr double kSheetShare = 0.05;
 // Textures finer than a picture's pixels would flicker with every shift.
-constexpr Index kMostTexels = 512;
+constexpr Index kMaxTexels = 512;
 
 struct Options {
   std::vector<std::string> models;
@@ -88,7 +88,7 @@ std::optional<Texture> read_texture(const Image& image, const fs::path& folder) 
     const auto part = [&](std::size_t k) { return static_cast<float>(pixels.image[i + k]) / 255; };
     out.texels.push_back({part(0), part(1), part(2)});
   }
-  while (std::max(out.width, out.height) > kMostTexels && out.width % 2 == 0 && out.height % 2 == 0)
+  while (std::max(out.width, out.height) > kMaxTexels && out.width % 2 == 0 && out.height % 2 == 0)
     out = out.halved();
   return out;
 }
@@ -105,7 +105,7 @@ std::optional<Texture> texture_beside(const fs::path& model) {
 
 // The images of materials, and for the rest a generated one.
 void add_textures(const Model& model, const fs::path& path, Subject& subject) {
-  subject.textures.push_back(checker_texture(kMostTexels, 32));
+  subject.textures.push_back(checker_texture(kMaxTexels, 32));
   std::vector<Index> image_texture(model.scene.images.size(), 0);
   for (std::size_t i = 0; i < image_texture.size(); ++i)
     if (auto texture = read_texture(model.scene.images[i], path.parent_path())) {
@@ -194,7 +194,7 @@ std::optional<Subject> read_subject(const std::string& name) {
   if (subject.mesh.corners.empty()) return std::nullopt;
   if (path.extension() == ".obj") turn_v(subject.mesh);
   if (name == "charts") {
-    subject.textures.push_back(checker_texture(kMostTexels, 128));
+    subject.textures.push_back(checker_texture(kMaxTexels, 128));
     subject.group_texture.push_back(0);
   } else {
     add_textures(model, path, subject);
@@ -304,8 +304,8 @@ struct Manner {
 constexpr Manner kManners[] = {
     {"ours", Placement::subset, Metric::memoryless},
     {"ours-qem", Placement::subset, Metric::qem},
-    {"ours-optimal", Placement::free, Metric::memoryless},
-    {"ours-optimal-qem", Placement::free, Metric::qem},
+    {"ours-optimal", Placement::optimal, Metric::memoryless},
+    {"ours-optimal-qem", Placement::optimal, Metric::qem},
     {"ours-geometry", Placement::subset, Metric::memoryless, false},
 };
 
@@ -449,10 +449,10 @@ Options parse(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace pstrip::bench
+}  // namespace pstrips::bench
 
 int main(int argc, char** argv) {
-  using namespace pstrip;
+  using namespace pstrips;
   const bench::Options options = bench::parse(argc, argv);
   fmt::print(
       "model,variant,share,source_triangles,triangles,stop,silhouette,depth,face_normal,"

@@ -5,24 +5,24 @@
 
 #include "converters/decode.h"
 #include "converters/encode.h"
-#include "formats/pstrip/binary.h"
+#include "formats/pstrip/container/binary.h"
 
 int main() {
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-  pstrip::Model model;
-  pstrip::Mesh& mesh = model.meshes.emplace_back();
+  pstrips::Model model;
+  pstrips::Mesh& mesh = model.meshes.emplace_back();
   mesh.position.data.resize(sizeof positions);
   std::memcpy(mesh.position.data.data(), positions, sizeof positions);
   mesh.corners = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
   mesh.groups.resize(1);
 
-  const auto strips = pstrip::encode(model, {.keep_order = true});
+  const auto strips = pstrips::encode(model, {.keep_order = true});
   if (!strips) return std::printf("encode: %s\n", strips.error().message.c_str()), 1;
-  const auto file = pstrip::write_binary(*strips);
+  const auto file = pstrips::write_binary(*strips);
   if (!file) return std::printf("write: %s\n", file.error().message.c_str()), 1;
-  const auto read = pstrip::read_binary(*file);
+  const auto read = pstrips::read_binary(*file);
   if (!read) return std::printf("read: %s\n", read.error().message.c_str()), 1;
-  const bool same = pstrip::decode(*read)->meshes == model.meshes;
+  const bool same = pstrips::decode(*read)->meshes == model.meshes;
   std::printf("%zu bytes, %s\n", file->size(), same ? "exact" : "different");
   return same ? 0 : 1;
 }

@@ -15,7 +15,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/round_trip.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // Bit patterns of floats that arithmetic would not leave as they are, or not survive.
@@ -65,9 +65,9 @@ RC_GTEST_PROP(AnyInput, ComesBackWithEveryCombinationOfOptions, ()) {
   options.stripifier =
       *rc::gen::element<std::string>("best", "sgi-strips", "multi-path", "stripe-lookahead");
   options.base_share = *rc::gen::element(0.0, 0.05, 1.0);
-  options.placement = *rc::gen::element(Placement::subset, Placement::free);
+  options.placement = *rc::gen::element(Placement::subset, Placement::optimal);
   options.metric = *rc::gen::element(Metric::qem, Metric::memoryless);
-  for (const MapEncoding encoding : {MapEncoding::naive, MapEncoding::offset_difference})
+  for (const MapEncoding encoding : {MapEncoding::naive, MapEncoding::offset})
     for (const bool keep_order : {false, true}) {
       options.encoding = encoding;
       options.keep_order = keep_order;
@@ -134,12 +134,12 @@ TEST_P(LargeInput, ComesBack) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Placements, LargeInput,
-                         testing::Values(Placement::subset, Placement::free));
+                         testing::Values(Placement::subset, Placement::optimal));
 
 TEST(AnyInput, VerticesThatAreNotFiniteStandInTheBaseUnmoved) {
   Mesh mesh = test::torus(20, 16);
   for (std::size_t i = 0; i < kOddFloats.size(); ++i) put_float(mesh, 37 * i, kOddFloats[i]);
-  for (const Placement placement : {Placement::subset, Placement::free}) {
+  for (const Placement placement : {Placement::subset, Placement::optimal}) {
     EncodeOptions options;
     options.base_share = 0;
     options.placement = placement;
@@ -198,4 +198,4 @@ TEST(Encode, RefusesAMeshBeyondMemoryBeforeWorkStarts) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -19,7 +19,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr float kUnbounded = std::numeric_limits<float>::max();
@@ -100,7 +100,7 @@ RC_GTEST_PROP(Bounds, HoldForAnyMesh, ()) {
   EncodeOptions options;
   options.base_share = 0;
   options.packet_min = *rc::gen::inRange<Index>(1, 8);
-  options.placement = *rc::gen::element(Placement::subset, Placement::free);
+  options.placement = *rc::gen::element(Placement::subset, Placement::optimal);
   options.metric = *rc::gen::element(Metric::qem, Metric::memoryless);
   RC_ASSERT(broken_promise(encode(test::model_of(mesh), options).value(), 500) == "");
 }
@@ -115,7 +115,7 @@ TEST(Bounds, HoldForIntegerPositions) {
     for (Index v = 0; v < real.elements(); ++v)
       for (std::size_t k = 0; k < 3; ++k)
         set_component(mesh.position, v, k, std::round(8 * component(real, v, k)));
-    for (const Placement placement : {Placement::subset, Placement::free})
+    for (const Placement placement : {Placement::subset, Placement::optimal})
       EXPECT_EQ(broken_promise(encode(test::model_of(mesh),
                                       {.base_share = 0, .placement = placement, .packet_min = 10})
                                    .value(),
@@ -165,9 +165,9 @@ class ModelBounds : public testing::TestWithParam<const char*> {};
 TEST_P(ModelBounds, Hold) {
   const std::optional<Mesh> mesh = test::real_mesh(GetParam());
   if (!mesh) GTEST_SKIP() << "no model " << GetParam();
-  for (const Placement placement : {Placement::subset, Placement::free}) {
+  for (const Placement placement : {Placement::subset, Placement::optimal}) {
     EncodeOptions options{.base_share = 0.01, .placement = placement, .packet_growth = 4};
-    if (placement == Placement::free) options.metric = Metric::memoryless;
+    if (placement == Placement::optimal) options.metric = Metric::memoryless;
     EXPECT_EQ(broken_promise(encode(test::model_of(*mesh), options).value(), 20'000), "");
   }
 }
@@ -178,4 +178,4 @@ INSTANTIATE_TEST_SUITE_P(Classic, ModelBounds,
                                          "nasty/topology/bunny2.ply"));
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

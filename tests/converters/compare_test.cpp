@@ -8,7 +8,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // The same mesh with faces shuffled and turned, vertices and wedges renumbered.
@@ -113,4 +113,4 @@ TEST(Compare, NothingIsInfinitelyFarFromSomething) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -12,12 +12,12 @@
 #include "codecs/stripify/stripify.h"
 #include "converters/decode.h"
 #include "converters/text_collapses.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/digest.h"
-#include "formats/pstrip/text.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/digest.h"
+#include "formats/pstrip/text/text.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 Model model_of(std::vector<Mesh> meshes) {
@@ -38,7 +38,7 @@ RC_GTEST_PROP(Encode, AnySoupComesBackExactlyInBothEncodings, ()) {
   const auto vertices = *rc::gen::inRange<Index>(0, 60);
   const auto faces = *rc::gen::inRange<Index>(0, 120);
   const Model model = model_of({test::random_soup(seed, vertices, faces)});
-  for (const MapEncoding encoding : {MapEncoding::naive, MapEncoding::offset_difference}) {
+  for (const MapEncoding encoding : {MapEncoding::naive, MapEncoding::offset}) {
     EncodeOptions options;
     options.encoding = encoding;
     options.keep_order = true;
@@ -53,7 +53,7 @@ RC_GTEST_PROP(Encode, AnySoupComesBackExactlyInBothEncodings, ()) {
 // Every way to choose collapses.
 std::vector<EncodeOptions> manners() {
   std::vector<EncodeOptions> out;
-  for (const Placement placement : {Placement::subset, Placement::free})
+  for (const Placement placement : {Placement::subset, Placement::optimal})
     for (const Metric metric : {Metric::qem, Metric::memoryless}) {
       out.emplace_back();
       out.back().placement = placement;
@@ -133,7 +133,7 @@ TEST(Encode, FreePlacementGivesBetterLevels) {
 TEST(Encode, TextFilesKeepWhereParentsStand) {
   EncodeOptions options = manners().back();
   options.base_share = 0.1;
-  for (const Placement placement : {Placement::free, Placement::subset}) {
+  for (const Placement placement : {Placement::optimal, Placement::subset}) {
     options.placement = placement;
     const ProgressiveStrips strips = encoded(model_of({test::torus(30, 20)}), options);
     const auto text = read_text(write_text(strips)->bytes);
@@ -321,4 +321,4 @@ TEST(KeepAttributes, JoinsWedgesThatThenAreTheSame) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

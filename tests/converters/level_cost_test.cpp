@@ -12,7 +12,7 @@
 #include "converters/inspect.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 Collapse collapse(Index removed, Index kept) {
@@ -115,4 +115,4 @@ TEST(LevelCost, BringsDownWhatCoarseLevelsSend) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

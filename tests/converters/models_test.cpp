@@ -17,7 +17,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/round_trip.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,18 +31,18 @@ struct Variant {
 };
 
 // Together they have both values of each; all of the others run on small models.
-const Variant kTwo[] = {{MapEncoding::offset_difference, false, true},
-                        {MapEncoding::naive, true, false, Placement::free, Metric::memoryless}};
+const Variant kTwo[] = {{MapEncoding::offset, false, true},
+                        {MapEncoding::naive, true, false, Placement::optimal, Metric::memoryless}};
 const Variant kAll[] = {{MapEncoding::naive, false, false},
                         {MapEncoding::naive, false, true},
                         {MapEncoding::naive, true, false},
                         {MapEncoding::naive, true, true},
-                        {MapEncoding::offset_difference, false, false},
-                        {MapEncoding::offset_difference, false, true},
-                        {MapEncoding::offset_difference, true, false},
-                        {MapEncoding::offset_difference, true, true},
-                        {MapEncoding::offset_difference, false, true, Placement::free},
-                        {MapEncoding::naive, true, true, Placement::free, Metric::memoryless},
+                        {MapEncoding::offset, false, false},
+                        {MapEncoding::offset, false, true},
+                        {MapEncoding::offset, true, false},
+                        {MapEncoding::offset, true, true},
+                        {MapEncoding::offset, false, true, Placement::optimal},
+                        {MapEncoding::naive, true, true, Placement::optimal, Metric::memoryless},
                         {MapEncoding::naive, false, false, Placement::subset, Metric::memoryless}};
 constexpr std::uint64_t kLargeCorners = 20'000;
 
@@ -142,4 +142,4 @@ TEST_F(Models, RealOnesComeBack) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -9,11 +9,11 @@
 #include "converters/decode.h"
 #include "converters/encode.h"
 #include "converters/scene_level.h"
-#include "formats/pstrip/check.h"
+#include "formats/pstrip/payload/check.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -165,4 +165,4 @@ TEST(SceneLevel, OfNoMeshesIsEmpty) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

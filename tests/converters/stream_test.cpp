@@ -11,11 +11,11 @@
 #include "converters/encode.h"
 #include "converters/files.h"
 #include "converters/stream_decoder.h"
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/chunks.h"
 #include "tests/support/meshes.h"
 #include "tests/support/paths.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Sample {
@@ -175,4 +175,4 @@ TEST(StreamDecoder, KeepsWhatItHasWhenTheRestIsBroken) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

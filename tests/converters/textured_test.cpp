@@ -21,7 +21,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/seamed_meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Seamed {
@@ -60,8 +60,8 @@ struct Manner {
 constexpr Manner kManners[] = {
     {"subset, qem", Placement::subset, Metric::qem},
     {"subset, memoryless", Placement::subset, Metric::memoryless},
-    {"free, qem", Placement::free, Metric::qem},
-    {"free, memoryless", Placement::free, Metric::memoryless},
+    {"free, qem", Placement::optimal, Metric::qem},
+    {"free, memoryless", Placement::optimal, Metric::memoryless},
 };
 
 // In packets small enough to see many levels.
@@ -211,4 +211,4 @@ TEST(TexturedLevels, ReachTheBaseAskedFor) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

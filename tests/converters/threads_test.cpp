@@ -11,7 +11,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr Index kMeshes = 30;
@@ -64,7 +64,7 @@ TEST(Threads, DoNotChangeAScene) {
 TEST(Threads, DoNotChangeALargeMesh) {
   const Model model = one_mesh(test::torus(400, 250));
   expect_same_on_any_number(model);
-  for (const Placement placement : {Placement::subset, Placement::free})
+  for (const Placement placement : {Placement::subset, Placement::optimal})
     expect_same_on_any_number(model, {.base_share = 0.3,
                                       .placement = placement,
                                       .metric = Metric::memoryless,
@@ -107,4 +107,4 @@ TEST(Threads, AllStopWhenOneIsTold) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

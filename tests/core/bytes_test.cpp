@@ -4,7 +4,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 Bytes sample() {
@@ -78,4 +78,4 @@ RC_GTEST_PROP(ByteReader, ArraysComeBack, (const std::vector<std::uint32_t>& val
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 std::vector<Index> expected(const std::string& table, std::size_t size) {
@@ -41,4 +41,4 @@ TEST(FirstEquals, SharesALongTableAmongThreads) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 class Files : public ::testing::Test {
@@ -71,4 +71,4 @@ TEST_F(Files, SayWhyTheyCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

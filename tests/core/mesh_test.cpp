@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 Attribute attribute_of(ComponentType type, bool normalized) {
@@ -61,4 +61,4 @@ TEST(SetComponent, StoresWhatWasReadAsItWas) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 TEST(ParallelFor, CutsTheSameRunsForAnyNumberOfThreads) {
@@ -61,4 +61,4 @@ TEST(ThreadCount, IsWhatIsWantedOrWhatTheMachineHas) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr Index kR = kRestart, kM2 = kSameAsMinus2, kM1 = kSameAsMinus1, kP1 = kSameAsPlus1,
@@ -78,4 +78,4 @@ TEST(ForEachTriangle, StartsEachStripAfresh) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

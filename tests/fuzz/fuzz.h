@@ -12,11 +12,11 @@
 
 /// Aborts when a law does not hold, so that libFuzzer and replay keep the input.
 #define FUZZ_CHECK(condition) \
-  ((condition) ? void() : pstrip::fuzz::broken_law(__FILE__, __LINE__, #condition))
+  ((condition) ? void() : pstrips::fuzz::broken_law(__FILE__, __LINE__, #condition))
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-namespace pstrip::fuzz {
+namespace pstrips::fuzz {
 
 [[noreturn]] inline void broken_law(const char* file, int line, const char* law) {
   std::fprintf(stderr, "%s:%d: does not hold: %s\n", file, line, law);
@@ -60,4 +60,4 @@ inline Bytes join_companion(ByteView file, ByteView companion) {
   return out;
 }
 
-}  // namespace pstrip::fuzz
+}  // namespace pstrips::fuzz

@@ -7,7 +7,7 @@
 #include "formats/medit/medit.h"
 #include "tests/fuzz/fuzz.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto mesh = read_medit(fuzz::as_file(data, size), fuzz::kLimits);
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   return {
       .extensions = {".mesh"},
       .words = {"MeshVersionFormatted ", "Dimension 3\n", "Vertices\n", "Tetrahedra\n", "End\n",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-namespace pstrip::fuzz {
+namespace pstrips::fuzz {
 namespace {
 
 // Where counts and indices go wrong: ends of types, symbols of the index map, signs.
@@ -119,4 +119,4 @@ Bytes mutate(ByteView file, std::uint32_t seed, std::span<const std::string_view
   return std::move(mutation).take();
 }
 
-}  // namespace pstrip::fuzz
+}  // namespace pstrips::fuzz

@@ -6,11 +6,11 @@
 
 #include "core/bytes.h"
 
-namespace pstrip::fuzz {
+namespace pstrips::fuzz {
 
 /// Damages a file in one to four places: bits, bytes, numbers, words, cuts, repeats, pieces of the
 /// other files. Same arguments, same result.
 Bytes mutate(ByteView file, std::uint32_t seed, std::span<const std::string_view> words,
              std::span<const Bytes> others);
 
-}  // namespace pstrip::fuzz
+}  // namespace pstrips::fuzz

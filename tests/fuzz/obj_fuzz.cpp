@@ -6,7 +6,7 @@
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/meshes.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto [file, library] = fuzz::split_companion(fuzz::as_file(data, size));
@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   Target out{
       .extensions = {".obj", ".OBJ"},
       .words = {"v ",      "vt ",     "vn ",

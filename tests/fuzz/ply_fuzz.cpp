@@ -5,7 +5,7 @@
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/meshes.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   auto model = read_ply(fuzz::as_file(data, size), fuzz::kLimits);
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   Target out{
       .extensions = {".ply", ".PLY"},
       .words = {"x",

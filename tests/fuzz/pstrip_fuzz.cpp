@@ -5,14 +5,14 @@
 
 #include "converters/decode.h"
 #include "converters/stream_decoder.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/payload/check.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/progressive.h"
 #include "validators/validate.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 namespace {
 
@@ -85,7 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   Target out{.extensions = {".pstrip"}, .words = {}, .seeds = {}};
   for (std::uint32_t seed = 0; seed < 12; ++seed)
     if (auto file = write_binary(test::random_progressive_of_any_kind(seed)))

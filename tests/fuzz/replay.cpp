@@ -23,7 +23,7 @@
 
 namespace {
 
-using namespace pstrip;
+using namespace pstrips;
 namespace fs = std::filesystem;
 
 constexpr unsigned kSecondsAnInput = 20;  // sanitizers included

@@ -6,12 +6,12 @@
 #include "converters/decode.h"
 #include "converters/encode.h"
 #include "converters/text_collapses.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/text.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/text/text.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/progressive.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 namespace {
 
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   Target out{.extensions = {".pm"},
              .words = {"v ", "vt ", "f ", "s ", "\n", " ", "#", "1/1", "# pstrips text 1.0",
                        "vertices=", "faces=", "vsplits=", "position=f64", "position=f32", "/"},

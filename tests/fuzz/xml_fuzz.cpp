@@ -1,14 +1,14 @@
 // What the XML reader accepts keeps `check`, and comes back the same through XML and through the
 // binary variant. What the validator passes, the reader accepts.
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/xml/xml.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/support/progressive.h"
 #include "validators/validate.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const ByteView document = fuzz::as_file(data, size);
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   Target out{.extensions = {".pstripx"},
              .words = {"<",
                        ">",

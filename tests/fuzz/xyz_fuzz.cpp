@@ -6,7 +6,7 @@
 #include "formats/xyz/xyz.h"
 #include "tests/fuzz/fuzz.h"
 
-using namespace pstrip;
+using namespace pstrips;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto model = read_xyz(fuzz::as_file(data, size), fuzz::kLimits);
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-fuzz::Target pstrip::fuzz::target() {
+fuzz::Target pstrips::fuzz::target() {
   Target out{.extensions = {".xyz", ".pts"},
              .words = {"1 2 3\n", "0 0 0\n", "nan ", "inf ", "-1e308 ", "5e-324 ", "#", ",", ";",
                        "\r\n", "\n", "1e400 ", "0x1p3 ", "1.#INF "},

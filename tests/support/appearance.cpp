@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 using Colour = std::array<float, 3>;
@@ -126,7 +126,7 @@ void Comparison::add_pixel(const Pixel& a, const Pixel& b, const Point& toward) 
 void Comparison::add_texture(const Pixel& a, const Pixel& b) {
   ++same_;
   const double u = a.uv[0] - b.uv[0], v = a.uv[1] - b.uv[1];
-  sums_.uv += std::min(u * u + v * v, kMostUv * kMostUv);
+  sums_.uv += std::min(u * u + v * v, kMaxUv * kMaxUv);
   sums_.stretch += std::pow(stretch_between(a, b), 2);
 }
 
@@ -134,8 +134,8 @@ void Comparison::add_texture(const Pixel& a, const Pixel& b) {
 double Comparison::stretch_between(const Pixel& a, const Pixel& b) const {
   const TriangleStretch &x = original_.stretches[a.triangle], &y = other_.stretches[b.triangle];
   if (std::isinf(x.squared)) return 0;
-  if (std::isinf(y.squared) || x.mirrored != y.mirrored) return kMostStretch;
-  return std::min(std::abs(std::log2(y.squared / x.squared)) / 2, kMostStretch);
+  if (std::isinf(y.squared) || x.mirrored != y.mirrored) return kMaxStretch;
+  return std::min(std::abs(std::log2(y.squared / x.squared)) / 2, kMaxStretch);
 }
 
 // Windows half over one another; those without a pixel of either mesh say nothing.
@@ -219,4 +219,4 @@ Stretch stretch(const RenderMesh& mesh) {
   return out;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

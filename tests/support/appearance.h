@@ -6,7 +6,7 @@
 
 // How much of a mesh's looks another one keeps.
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// Differences between pictures of two meshes, from 0: the same. Colours over pixels that either
 /// mesh covers, on grey; the rest over those that both do, texture coordinates where they show the
@@ -21,16 +21,16 @@ struct Appearance {
   double vertex_lit = 0;     ///< of that lit by vertex normals
   double structure = 0;      ///< 1 - SSIM of that one's luminance, over 8 × 8 pixels [Wang04]
   /// Root mean square distance of the texture coordinates seen at a pixel, those that are farther
-  /// apart than kMostUv counting as that: then it is another part of the texture altogether.
+  /// apart than kMaxUv counting as that: then it is another part of the texture altogether.
   double uv = 0;
   /// Root mean square of the power of two by which a mesh stretches its texture more or less than
   /// the original does at the same pixel, the mean over all directions. Where the texture is
-  /// mirrored, or one point of it all over a triangle, it counts as kMostStretch.
+  /// mirrored, or one point of it all over a triangle, it counts as kMaxStretch.
   double stretch = 0;
 };
-inline constexpr double kMostStretch = 10;
+inline constexpr double kMaxStretch = 10;
 inline constexpr double kSameSurface = 0.02;  ///< of the camera's radius
-inline constexpr double kMostUv = 0.1;
+inline constexpr double kMaxUv = 0.1;
 
 /// Over one picture of each mesh for each camera.
 Appearance compare_appearance(const RenderMesh& original, const RenderMesh& other,
@@ -48,4 +48,4 @@ struct Stretch {
 };
 Stretch stretch(const RenderMesh& mesh);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -8,7 +8,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/seamed_meshes.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 constexpr Index kSize = 64;
@@ -75,7 +75,7 @@ TEST(Appearance, TellsNormals) {
 
 TEST(Appearance, TellsWhereTheTextureIs) {
   EXPECT_NEAR(compared(changed([](auto& c) { c.uv[0] += 0.03; })).uv, 0.03, 1e-12);
-  EXPECT_NEAR(compared(changed([](auto& c) { c.uv[0] += 0.4; })).uv, kMostUv, 1e-12);
+  EXPECT_NEAR(compared(changed([](auto& c) { c.uv[0] += 0.4; })).uv, kMaxUv, 1e-12);
 }
 
 TEST(Appearance, ComparesTexturesOfTheSameSurface) {
@@ -96,8 +96,8 @@ TEST(Appearance, TellsHowTheTextureIsStretched) {
                 c.uv = {c.uv[0] / 4, c.uv[1] / 4};
               })).stretch,
               2, 1e-12);
-  EXPECT_DOUBLE_EQ(compared(changed([](auto& c) { c.uv[0] = 0.5; })).stretch, kMostStretch);
-  EXPECT_DOUBLE_EQ(compared(changed([](auto& c) { c.uv[0] = -c.uv[0]; })).stretch, kMostStretch);
+  EXPECT_DOUBLE_EQ(compared(changed([](auto& c) { c.uv[0] = 0.5; })).stretch, kMaxStretch);
+  EXPECT_DOUBLE_EQ(compared(changed([](auto& c) { c.uv[0] = -c.uv[0]; })).stretch, kMaxStretch);
 }
 
 TEST(Stretch, IsThatOfEachDirection) {
@@ -119,4 +119,4 @@ TEST(Stretch, LeavesOutWhatHasNoAreaInTheTexture) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

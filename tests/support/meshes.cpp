@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 template <class T>
@@ -187,4 +187,4 @@ Mesh voxel_torus(Index side) {
   return quad_mesh(std::move(positions), std::move(corners));
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

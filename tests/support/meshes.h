@@ -5,7 +5,7 @@
 #include "core/mesh.h"
 #include "core/scene.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// A model of one mesh, without a scene.
 Model model_of(Mesh mesh);
@@ -41,4 +41,4 @@ Mesh joined_to_quads(const Mesh& triangles);
 /// reconstructed from orthogonal slices looks like.
 Mesh voxel_torus(Index side);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

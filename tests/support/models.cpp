@@ -5,7 +5,7 @@
 #include "formats/ply/ply.h"
 #include "tests/support/paths.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 std::optional<Mesh> real_mesh(const std::string& path_in_models) {
   const auto dir = models_dir();
@@ -21,4 +21,4 @@ std::optional<Mesh> real_mesh(const std::string& path_in_models) {
   return std::move(model->meshes.front());
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

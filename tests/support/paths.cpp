@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 std::filesystem::path data_dir() {
   return std::filesystem::path(PSTRIPS_SOURCE_DIR) / "tests/data";
@@ -18,4 +18,4 @@ std::optional<std::filesystem::path> models_dir() {
   return dir;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

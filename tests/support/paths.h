@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// tests/data of the source tree.
 std::filesystem::path data_dir();
@@ -13,4 +13,4 @@ std::filesystem::path data_dir();
 /// is there. Tests over it skip with a reason when it is not.
 std::optional<std::filesystem::path> models_dir();
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -6,7 +6,7 @@
 
 #include "core/strips.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 using Triangle = std::array<Index, 3>;
@@ -153,4 +153,4 @@ std::string find_strip_fault(const PolygonInput& input, std::span<const Index> s
   return {};
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

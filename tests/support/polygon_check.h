@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// What is wrong with `strips` as strips of polygons, as a phrase; empty when every face is there
 /// exactly once, as the triangles of one of its triangulations between its own corners, with its
@@ -14,4 +14,4 @@ namespace pstrip::test {
 /// faces that share many triples of wedges may take it longer.
 std::string find_strip_fault(const PolygonInput& input, std::span<const Index> strips);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

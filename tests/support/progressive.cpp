@@ -5,9 +5,9 @@
 #include <numeric>
 #include <random>
 
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/payload/digest.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 class Dice {
@@ -44,7 +44,7 @@ struct State {
   std::vector<Index> wedge_vertex;
   std::vector<Index> map;
   Index vertices = 0;
-  std::size_t wedge_place = 0, carried = 0, place = 0;  ///< list elements used
+  std::size_t offset_count = 0, reassigned = 0, map_offset = 0;  ///< list elements used
 };
 
 State base_state(const ProgressiveMesh& mesh) {
@@ -68,15 +68,15 @@ void apply(State& s, const ProgressiveMesh& mesh, std::size_t record) {
   const std::size_t bytes = mesh.position.element_bytes();
   const ByteView own = mesh.position.element(v);
   s.position.insert(s.position.end(), own.begin(), own.end());
-  if (mesh.placement == Placement::free)
+  if (mesh.placement == Placement::optimal)
     std::memcpy(s.position.data() + split.parent * bytes,
                 mesh.parent_position.data() + record * bytes, bytes);
-  for (Index k = 0; k < split.carried; ++k) s.wedge_vertex[mesh.carried[s.carried++]] = v;
+  for (Index k = 0; k < split.reassigned; ++k) s.wedge_vertex[mesh.reassigned[s.reassigned++]] = v;
   for (Index k = 0; k < split.wedges; ++k) {
     const auto wedge = static_cast<Index>(s.wedge_vertex.size());
     s.wedge_vertex.push_back(v);
-    for (Index n = mesh.wedge_places[s.wedge_place++]; n > 0; --n)
-      s.map[mesh.places[s.place++]] = wedge;
+    for (Index n = mesh.wedge_offset_counts[s.offset_count++]; n > 0; --n)
+      s.map[mesh.map_offsets[s.map_offset++]] = wedge;
   }
 }
 
@@ -155,7 +155,7 @@ void make_base(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh& m
       if (!mesh.base_map.empty()) mesh.base_map.push_back(kRestart);
       std::vector<Index> strip(3 + dice.below(6));
       for (Index& entry : strip) entry = dice.below(mesh.base_wedges);
-      if (mesh.encoding == MapEncoding::offset_difference)
+      if (mesh.encoding == MapEncoding::offset)
         for (Index& entry : strip) {
           const Index wedge = entry;
           constexpr int kDistances[] = {-2, -1, 1, 2};
@@ -175,7 +175,7 @@ void make_vsplit(Dice& dice, const State& s, ProgressiveMesh& mesh) {
   const bool own = s.vertices == 0 || dice.one_in(8);
   Vsplit split{own ? s.vertices : dice.below(s.vertices), 0, 0, 0};
   append_position(dice, mesh.position, mesh.position.data);
-  if (mesh.placement == Placement::free) {
+  if (mesh.placement == Placement::optimal) {
     if (own) {
       const ByteView same = mesh.position.element(s.vertices);
       mesh.parent_position.insert(mesh.parent_position.end(), same.begin(), same.end());
@@ -191,20 +191,20 @@ void make_vsplit(Dice& dice, const State& s, ProgressiveMesh& mesh) {
   if (!mesh.single_wedges)
     for (Index w = 0; w < s.wedge_vertex.size(); ++w)
       if (belongs(w) && staying > 1 && dice.one_in(3)) {
-        mesh.carried.push_back(w);
-        ++split.carried;
+        mesh.reassigned.push_back(w);
+        ++split.reassigned;
         --staying;
       }
-  split.wedges = mesh.single_wedges || split.carried == 0 ? 1 : 0;
+  split.wedges = mesh.single_wedges || split.reassigned == 0 ? 1 : 0;
   if (!mesh.single_wedges) split.wedges += dice.below(2);
-  std::vector<std::vector<Index>> places(split.wedges);
+  std::vector<std::vector<Index>> map_offsets(split.wedges);
   const std::vector<Index> resolved = resolve(s.map).value();
   for (Index i = 0; i < resolved.size() && split.wedges > 0; ++i)
-    if (belongs(resolved[i]) && !dice.one_in(3)) places[dice.below(split.wedges)].push_back(i);
-  for (const std::vector<Index>& of_wedge : places) {
-    mesh.wedge_places.push_back(static_cast<Index>(of_wedge.size()));
-    mesh.places.insert(mesh.places.end(), of_wedge.begin(), of_wedge.end());
-    split.places += static_cast<Index>(of_wedge.size());
+    if (belongs(resolved[i]) && !dice.one_in(3)) map_offsets[dice.below(split.wedges)].push_back(i);
+  for (const std::vector<Index>& of_wedge : map_offsets) {
+    mesh.wedge_offset_counts.push_back(static_cast<Index>(of_wedge.size()));
+    mesh.map_offsets.insert(mesh.map_offsets.end(), of_wedge.begin(), of_wedge.end());
+    split.map_offsets += static_cast<Index>(of_wedge.size());
     for (Attribute& a : mesh.wedge_attributes) dice.append(a.data, a.element_bytes());
   }
   mesh.vsplits.push_back(split);
@@ -404,4 +404,4 @@ void recount_levels(ProgressiveStrips& strips) {
   }
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

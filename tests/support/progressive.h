@@ -4,7 +4,7 @@
 
 #include "core/progressive_strips.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// What a generated file has. Every combination is valid.
 struct ProgressiveOptions {
@@ -38,4 +38,4 @@ Mesh decode_slowly(const ProgressiveMesh& mesh, std::size_t vsplits);
 /// Recounts triangles and strips of every level of every mesh, e.g. after a test edited records.
 void recount_levels(ProgressiveStrips& strips);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -7,7 +7,7 @@
 
 #include "codecs/triangulate/triangulate.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 constexpr float kAmbient = 0.3f;
@@ -250,4 +250,4 @@ std::array<float, 3> lit(const Pixel& pixel, const Point& normal, const Point& t
   return out;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -12,7 +12,7 @@
 // its own. Cameras are orthographic, so that no part of a model counts more than another and
 // everything is linear over a triangle on the screen.
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 using Uv = std::array<double, 2>;
 
@@ -84,4 +84,4 @@ Picture render(const RenderMesh& mesh, std::span<const Texture> textures, const 
 /// How a pixel looks with a light where the viewer is.
 std::array<float, 3> lit(const Pixel& pixel, const Point& normal, const Point& toward);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

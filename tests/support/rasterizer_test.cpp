@@ -8,7 +8,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 // From above, 8 pixels for the square from -1 to 1.
@@ -155,4 +155,4 @@ TEST(RenderMesh, LeavesOutTrianglesWithoutAPlace) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

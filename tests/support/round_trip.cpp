@@ -2,11 +2,11 @@
 
 #include "converters/compare.h"
 #include "converters/decode.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/xml/xml.h"
 #include "validators/validate.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 std::string round_trip(const Model& model, const EncodeOptions& options, bool xml) {
   auto strips = encode(model, options);
@@ -35,4 +35,4 @@ std::string round_trip(const Model& model, const EncodeOptions& options, bool xm
   return {};
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -5,11 +5,11 @@
 #include <numeric>
 
 #include "converters/scene_level.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunks.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 Model scene_of_tori(Index count) {
   Model model;
@@ -57,4 +57,4 @@ std::vector<ScenePoint> error_over_bytes(const ProgressiveStrips& strips, int st
   return out;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

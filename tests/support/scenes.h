@@ -5,7 +5,7 @@
 #include "core/progressive_strips.h"
 #include "core/scene.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// Tori of 12 × 10 to 36 × 30 vertices, one node each, enlarged by 0.01 to 10 in an order that has
 /// nothing to do with their sizes. Same count, same scene.
@@ -23,4 +23,4 @@ struct ScenePoint {
 /// After 1/steps, 2/steps … of the packets' bytes, whole packets only.
 std::vector<ScenePoint> error_over_bytes(const ProgressiveStrips& strips, int steps);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -9,7 +9,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
@@ -134,4 +134,4 @@ Mesh seamed_torus(Index u, Index v) {
   return mesh;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -5,7 +5,7 @@
 // Surfaces with texture coordinates that are cut along seams: a vertex on a seam has a wedge for
 // each side of it. All have TEXCOORD_0 alone, one group, positions in float.
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// A dented sphere over the surface of a cube, 12 side² triangles, closed. Each side of the cube is
 /// cut into charts × charts pieces that lie apart in the texture, every other one turned by a right
@@ -19,4 +19,4 @@ Mesh seamed_cylinder(Index u, Index v);
 /// The closed torus of u × v vertices with a seam around and one along.
 Mesh seamed_torus(Index u, Index v);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

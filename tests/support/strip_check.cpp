@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 namespace {
 
@@ -56,4 +56,4 @@ PolygonMesh polygon_mesh(const Mesh& mesh) {
   return out;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

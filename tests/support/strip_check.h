@@ -5,9 +5,9 @@
 #include "codecs/stripify/check.h"
 #include "core/mesh.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
-using pstrip::find_strip_fault;
+using pstrips::find_strip_fault;
 
 /// The triangles of a mesh that strips can show, and their groups.
 struct StripMesh {
@@ -31,4 +31,4 @@ struct PolygonMesh {
 /// The faces of three and more corners, all at different vertices, with their groups.
 PolygonMesh polygon_mesh(const Mesh& mesh);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -5,7 +5,7 @@
 
 #include "codecs/stripify/random.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 using Whole = __int128;
@@ -93,4 +93,4 @@ TetraMesh random_tetrahedra(std::uint32_t seed, Index vertices, Index tetrahedra
   return mesh;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -4,7 +4,7 @@
 
 #include "core/tetra.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// Delaunay tetrahedra of random points with whole coordinates; a little short of the convex hull.
 /// Tries every point against every tetrahedron: for a few thousand points.
@@ -14,4 +14,4 @@ TetraMesh delaunay_tetrahedra(std::uint32_t seed, Index points);
 /// more than two at a face.
 TetraMesh random_tetrahedra(std::uint32_t seed, Index vertices, Index tetrahedra);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
-#include "formats/pstrip/layout.h"
+#include "formats/pstrip/payload/layout.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 ChunkFile::ChunkFile(ByteView file) {
   const ChunkList list = read_chunks(file);
@@ -62,4 +62,4 @@ Bytes ChunkFile::bytes() const {
   return std::move(out).take();
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/bytes.h"
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/chunks.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// A binary file as chunks that can be changed, moved and left out; padding and CRC come right by
 /// themselves.
@@ -49,4 +49,4 @@ class ChunkFile {
   std::uint64_t largest_ = 0;  // bytes of the largest BASE or PCKT, as decoder_memory counts it
 };
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

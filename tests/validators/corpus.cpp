@@ -6,7 +6,7 @@
 #include "tests/validators/samples.h"
 #include "validators/rules.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 std::vector<CorpusFile> valid_corpus() {
   struct Sample {
@@ -40,4 +40,4 @@ std::string current_rules_page() {
   });
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

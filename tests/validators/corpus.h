@@ -5,7 +5,7 @@
 
 #include "core/bytes.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// One file of tests/data/valid or tests/data/invalid.
 struct CorpusFile {
@@ -22,4 +22,4 @@ std::vector<CorpusFile> invalid_corpus();
 /// spec/rules.md as the rules and the corpus make it.
 std::string current_rules_page();
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

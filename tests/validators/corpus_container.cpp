@@ -1,7 +1,7 @@
 #include "tests/validators/edits.h"
 #include "tests/validators/samples.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 // Where the fields of roof()'s MESH stand; its name takes eight bytes.
@@ -170,7 +170,7 @@ constexpr Case kCases[] = {
        // Two parents, then the wedges of the two records.
        return recut(bare_seam(), [](ChunkFile& f) { f.put("PCKT", kPacketHead + 8, 2u); });
      }},
-    {"PS1057_places_of_a_wedge.pstrip",
+    {"PS1057_offsets_of_a_wedge.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PCKT", kPacketHead + 8, 1u); }); }},
     {"PS1058_two_wedges_for_a_record.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PCKT", 12, 2u); }); }},
@@ -211,4 +211,4 @@ constexpr Case kCases[] = {
 
 const std::span<const Case> kContainerCases = kCases;
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -3,7 +3,7 @@
 #include "tests/validators/edits.h"
 #include "tests/validators/samples.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 constexpr Case kCases[] = {
@@ -215,19 +215,19 @@ constexpr Case kCases[] = {
      [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.vsplits[0].parent = 5; }); }},
     {"PS4001_parent_not_there_yet.pstripx",
      [] { return reworded(roof(), "<vsplit parent=\"0\"", "<vsplit parent=\"6\""); }},
-    {"PS4002_lone_vertex_carries.pstrip",
+    {"PS4002_isolated_vertex_reassigns.pstrip",
      [] {
        return edited_mesh(bare_seam(), [](ProgressiveMesh& m) {
-         m.vsplits[2].carried = 1;
-         m.carried.push_back(2);
+         m.vsplits[2].reassigned = 1;
+         m.reassigned.push_back(2);
        });
      }},
-    {"PS4003_lone_vertex_writes.pstrip",
+    {"PS4003_isolated_vertex_writes.pstrip",
      [] {
        return edited_mesh(bare_seam(), [](ProgressiveMesh& m) {
-         m.vsplits[2].places = 1;
-         m.wedge_places[3] = 1;
-         m.places.push_back(0);
+         m.vsplits[2].map_offsets = 1;
+         m.wedge_offset_counts[3] = 1;
+         m.map_offsets.push_back(0);
        });
      }},
     {"PS4005_vertex_without_wedges.pstrip",
@@ -235,7 +235,7 @@ constexpr Case kCases[] = {
        return edited(bare_seam(), [](ProgressiveStrips& s) {
          ProgressiveMesh& m = s.meshes[0];
          m.vsplits[2].wedges = 0;
-         m.wedge_places.pop_back();
+         m.wedge_offset_counts.pop_back();
          m.wedge_attributes[0].data.pop_back();
          --m.wedges;
        });
@@ -243,29 +243,30 @@ constexpr Case kCases[] = {
     {"PS4006_parent_loses_its_wedges.pstrip",
      [] {
        return edited_mesh(bare_seam(), [](ProgressiveMesh& m) {
-         m.vsplits[0].carried = 2;
-         m.carried = {0, 1};
+         m.vsplits[0].reassigned = 2;
+         m.reassigned = {0, 1};
        });
      }},
-    {"PS4007_carried_wedge_not_there_yet.pstrip",
-     [] { return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.carried[0] = 4; }); }},
-    {"PS4008_carried_from_another_vertex.pstrip",
-     [] { return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.carried[0] = 3; }); }},
-    {"PS4008_carried_from_another_vertex.pstripx",
-     [] { return reworded(bare_seam(), "carried=\"1\"", "carried=\"3\""); }},
-    {"PS4010_place_past_the_map.pstrip",
-     [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.places[2] = 9; }); }},
-    {"PS4011_place_on_a_restart.pstrip",
-     [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.places[2] = 5; }); }},
-    {"PS4012_places_descend.pstrip",
+    {"PS4007_reassigned_wedge_not_there_yet.pstrip",
+     [] { return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.reassigned[0] = 4; }); }},
+    {"PS4008_reassigned_from_another_vertex.pstrip",
+     [] { return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.reassigned[0] = 3; }); }},
+    {"PS4008_reassigned_from_another_vertex.pstripx",
+     [] { return reworded(bare_seam(), "reassigned=\"1\"", "reassigned=\"3\""); }},
+    {"PS4010_offset_past_the_map.pstrip",
+     [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.map_offsets[2] = 9; }); }},
+    {"PS4011_offset_of_a_restart.pstrip",
+     [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.map_offsets[2] = 5; }); }},
+    {"PS4012_offsets_descend.pstrip",
      [] {
-       return edited_mesh(roof(), [](ProgressiveMesh& m) { std::swap(m.places[0], m.places[1]); });
+       return edited_mesh(
+           roof(), [](ProgressiveMesh& m) { std::swap(m.map_offsets[0], m.map_offsets[1]); });
      }},
-    {"PS4013_place_of_two_wedges.pstrip",
-     [] { return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.places[2] = 1; }); }},
-    {"PS4014_place_of_another_vertex.pstrip",
-     [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.places[2] = 0; }); }},
-    {"PS4015_lone_vertex_moves.pstrip",
+    {"PS4013_offset_of_two_wedges.pstrip",
+     [] { return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.map_offsets[2] = 1; }); }},
+    {"PS4014_offset_of_another_vertex.pstrip",
+     [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.map_offsets[2] = 0; }); }},
+    {"PS4015_isolated_vertex_moves.pstrip",
      [] {
        return edited_mesh(bare_seam(),
                           [](ProgressiveMesh& m) { m.parent_position.back() ^= std::byte{1}; });
@@ -276,4 +277,4 @@ constexpr Case kCases[] = {
 
 const std::span<const Case> kModelCases = kCases;
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -14,7 +14,7 @@
 #include "validators/rules.h"
 #include "validators/validate.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::CorpusFile;
@@ -105,4 +105,4 @@ TEST(Corpus, FindingsSayWhere) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -1,7 +1,7 @@
 #include "tests/validators/edits.h"
 #include "tests/validators/samples.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 constexpr Case kCases[] = {
@@ -36,8 +36,10 @@ constexpr Case kCases[] = {
      [] { return reworded(roof(), "<positions>0 0 0", "<positions>0 0"); }},
     {"PS5012_wedge_vertices_too_many.pstripx",
      [] { return reworded(bare_seam(), "<wedge_vertex>0", "<wedge_vertex>0 0"); }},
-    {"PS5013_single_wedges_carried.pstripx",
-     [] { return reworded(roof(), "<vsplit parent=\"0\"", "<vsplit carried=\"1\" parent=\"0\""); }},
+    {"PS5013_single_wedges_reassigned.pstripx",
+     [] {
+       return reworded(roof(), "<vsplit parent=\"0\"", "<vsplit reassigned=\"1\" parent=\"0\"");
+     }},
     {"PS5013_parent_position_missing.pstripx",
      [] { return reworded(bare_seam(), " parent_position=\"-0.5 0\"", ""); }},
     {"PS5013_values_missing.pstripx", [] { return reworded(bare_seam(), " values=\"5\"", ""); }},
@@ -74,4 +76,4 @@ constexpr Case kCases[] = {
 
 const std::span<const Case> kXmlCases = kCases;
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -3,12 +3,12 @@
 #include <cassert>
 #include <string>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/xml/xml.h"
 #include "tests/validators/chunk_file.h"
 #include "tests/validators/corpus.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 // Ways to break a valid file.
 
@@ -66,4 +66,4 @@ struct Case {
 };
 extern const std::span<const Case> kContainerCases, kModelCases, kXmlCases;
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

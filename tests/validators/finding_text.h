@@ -4,7 +4,7 @@
 
 #include "validators/report.h"
 
-namespace pstrip {
+namespace pstrips {
 
 /// How gtest shows a finding.
 inline void PrintTo(const Finding& finding, std::ostream* out) {
@@ -12,4 +12,4 @@ inline void PrintTo(const Finding& finding, std::ostream* out) {
        << "): " << finding.message;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips

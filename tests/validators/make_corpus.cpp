@@ -9,9 +9,9 @@
 
 namespace {
 
-bool write(const std::filesystem::path& path, pstrip::ByteView bytes) {
+bool write(const std::filesystem::path& path, pstrips::ByteView bytes) {
   std::ofstream out(path, std::ios::binary);
-  const std::string_view text = pstrip::as_text(bytes);
+  const std::string_view text = pstrips::as_text(bytes);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
   if (!out) std::fprintf(stderr, "cannot write %s\n", path.c_str());
@@ -20,11 +20,11 @@ bool write(const std::filesystem::path& path, pstrip::ByteView bytes) {
 
 /// The folder holds these files afterwards and no others.
 bool write_all(const std::filesystem::path& folder,
-               const std::vector<pstrip::test::CorpusFile>& files) {
+               const std::vector<pstrips::test::CorpusFile>& files) {
   std::error_code error;
   std::filesystem::remove_all(folder, error);
   std::filesystem::create_directories(folder, error);
-  for (const pstrip::test::CorpusFile& file : files)
+  for (const pstrips::test::CorpusFile& file : files)
     if (!write(folder / file.name, file.bytes)) return false;
   return true;
 }
@@ -37,10 +37,10 @@ int main(int argc, char** argv) {
     return 1;
   }
   const std::filesystem::path source = argv[1];
-  const std::string page = pstrip::test::current_rules_page();
-  return write_all(source / "tests/data/valid", pstrip::test::valid_corpus()) &&
-                 write_all(source / "tests/data/invalid", pstrip::test::invalid_corpus()) &&
-                 write(source / "spec/rules.md", pstrip::as_bytes(page))
+  const std::string page = pstrips::test::current_rules_page();
+  return write_all(source / "tests/data/valid", pstrips::test::valid_corpus()) &&
+                 write_all(source / "tests/data/invalid", pstrips::test::invalid_corpus()) &&
+                 write(source / "spec/rules.md", pstrips::as_bytes(page))
              ? 0
              : 2;
 }

@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <random>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/xml/xml.h"
 #include "tests/support/progressive.h"
 #include "tests/validators/chunk_file.h"
 #include "tests/validators/corpus.h"
 #include "validators/validate.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 class Damage {
@@ -141,4 +141,4 @@ TEST(Mutations, EveryPrefixIsTruncated) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -13,7 +13,7 @@
 #include "tests/support/paths.h"
 #include "tests/validators/corpus.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 std::string page(const std::string& name) {
@@ -102,4 +102,4 @@ TEST(Rules, PageIsThatOfTheTable) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -1,9 +1,9 @@
 #include "tests/validators/samples.h"
 
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/payload/digest.h"
 #include "tests/support/progressive.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 void set_digests(ProgressiveStrips& strips) {
   for (ProgressiveMesh& mesh : strips.meshes) {
@@ -23,8 +23,8 @@ ProgressiveStrips roof() {
   mesh.base_map = {0, 1, 0, 2, 3, kRestart, 3, 0, 0};
   mesh.group_entries = {9};
   mesh.vsplits = {{0, 1, 0, 2}, {5, 1, 0, 0}, {4, 1, 0, 1}};
-  mesh.wedge_places = {2, 0, 1};
-  mesh.places = {2, 8, 8};
+  mesh.wedge_offset_counts = {2, 0, 1};
+  mesh.map_offsets = {2, 8, 8};
   mesh.vertices = mesh.wedges = 7;
   mesh.triangles = 4;
   mesh.strips = 2;
@@ -40,7 +40,7 @@ ProgressiveStrips roof() {
 
 ProgressiveStrips symbols() {
   ProgressiveStrips strips = roof();
-  strips.meshes[0].encoding = MapEncoding::offset_difference;
+  strips.meshes[0].encoding = MapEncoding::offset;
   strips.meshes[0].base_map = {0, 1, kSameAsMinus2, 2, 3, kRestart, 3, 0, kSameAsMinus1};
   return strips;
 }
@@ -48,7 +48,7 @@ ProgressiveStrips symbols() {
 ProgressiveStrips seam() {
   ProgressiveMesh mesh;
   mesh.name = "seam";
-  mesh.placement = Placement::free;
+  mesh.placement = Placement::optimal;
   mesh.single_wedges = false;
   mesh.groups = {{"left", kNone, FaceKind::polygons},
                  {"right", kNone, FaceKind::polygons},
@@ -63,9 +63,9 @@ ProgressiveStrips seam() {
   mesh.base_wedge_vertex = {0, 0, 1, 2};
   mesh.base_map = {0, 2, 3, kRestart, 1, 2, 3};
   mesh.vsplits = {{0, 1, 1, 1}, {1, 2, 0, 2}, {5, 1, 0, 0}};
-  mesh.carried = {1};
-  mesh.wedge_places = {1, 1, 1, 0};
-  mesh.places = {0, 1, 5};
+  mesh.reassigned = {1};
+  mesh.wedge_offset_counts = {1, 1, 1, 0};
+  mesh.map_offsets = {0, 1, 5};
   mesh.parent_position = bytes_of({-.5f, 0.f, 1.f, -.5f, 4.f, 4.f});
   mesh.vertices = 6;
   mesh.wedges = 8;
@@ -147,7 +147,7 @@ ProgressiveStrips scene() {
 
 ProgressiveStrips chained(Index entries, Index records) {
   ProgressiveMesh mesh;
-  mesh.encoding = MapEncoding::offset_difference;
+  mesh.encoding = MapEncoding::offset;
   mesh.groups.resize(1);
   mesh.position = {"POSITION", ComponentType::u8, 1, false, Bytes(records + 1)};
   mesh.base_vertices = mesh.base_wedges = 1;
@@ -155,8 +155,8 @@ ProgressiveStrips chained(Index entries, Index records) {
   mesh.base_map[0] = 0;
   mesh.group_entries = {entries};
   for (Index i = 0; i < records; ++i) mesh.vsplits.push_back({i, 1, 0, 1});
-  mesh.wedge_places.assign(records, 1);
-  mesh.places.assign(records, 0);
+  mesh.wedge_offset_counts.assign(records, 1);
+  mesh.map_offsets.assign(records, 0);
   mesh.vertices = mesh.wedges = records + 1;
   ProgressiveStrips strips;
   strips.meshes.push_back(std::move(mesh));
@@ -166,4 +166,4 @@ ProgressiveStrips chained(Index entries, Index records) {
   return strips;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -2,7 +2,7 @@
 
 #include "core/progressive_strips.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 // Small valid files, made by hand so that a test may say which byte of them it breaks.
 
@@ -45,4 +45,4 @@ ProgressiveStrips empty_mesh();
 /// Computes the digest of each mesh.
 void set_digests(ProgressiveStrips& strips);
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

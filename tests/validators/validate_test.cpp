@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/xml/xml.h"
 #include "tests/support/paths.h"
 #include "tests/support/progressive.h"
 #include "tests/validators/edits.h"
 #include "tests/validators/finding_text.h"
 #include "tests/validators/samples.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::random_progressive_of_any_kind;
@@ -42,7 +42,7 @@ TEST(Validate, TellsFourAnswersApart) {
 }
 
 TEST(Validate, ATruncatedFileThatIsAlsoCorruptIsInvalid) {
-  Bytes bytes = test::edited_mesh(test::roof(), [](ProgressiveMesh& m) { m.places[0] = 5; });
+  Bytes bytes = test::edited_mesh(test::roof(), [](ProgressiveMesh& m) { m.map_offsets[0] = 5; });
   bytes.resize(bytes.size() - 8);
   const Report report = validate(bytes);
   EXPECT_EQ(report.verdict(), Verdict::invalid);
@@ -54,19 +54,19 @@ TEST(Validate, ATruncatedFileThatIsAlsoCorruptIsInvalid) {
 TEST(Validate, SaysWhereInBothVariants) {
   // The third record writes a place of another vertex.
   ProgressiveStrips strips = test::roof();
-  strips.meshes[0].places[2] = 0;
+  strips.meshes[0].map_offsets[2] = 0;
   const Bytes binary = test::written(strips);
   const Report in_binary = validate(binary);
   ASSERT_EQ(in_binary.findings().size(), 1u);
   const Finding& finding = in_binary.findings()[0];
   EXPECT_EQ(finding.code, "PS4014");
   EXPECT_EQ(finding.clause, "V-014");
-  EXPECT_EQ(finding.path, "PCKT 1, vsplit 1, place");
+  EXPECT_EQ(finding.path, "PCKT 1, vsplit 1, map offset");
   std::uint32_t place = 1;
   std::memcpy(&place, binary.data() + finding.offset, sizeof place);
   EXPECT_EQ(place, 0u);
 
-  const Bytes xml = test::reworded(test::roof(), "places=\"8\"", "places=\"0\"");
+  const Bytes xml = test::reworded(test::roof(), "map_offsets=\"8\"", "map_offsets=\"0\"");
   const Report in_xml = validate(xml);
   ASSERT_EQ(in_xml.findings().size(), 1u);
   EXPECT_EQ(in_xml.findings()[0].code, "PS4014");
@@ -112,4 +112,4 @@ TEST(Validate, StopsFilesThatAreMadeToCost) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

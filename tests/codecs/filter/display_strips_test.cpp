@@ -12,7 +12,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr Index kR = kRestart;
@@ -119,4 +119,4 @@ RC_GTEST_PROP(DisplayFilters, KeepTheTrianglesOfCollapsedStrips, (std::uint32_t 
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

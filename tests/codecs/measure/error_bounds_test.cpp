@@ -14,7 +14,7 @@
 #include "codecs/measure/measure.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -142,7 +142,7 @@ TEST(ErrorBounds, WaysThereAndBackCancelOut) {
 TEST(ErrorBounds, OfFlatGridsIsNearlyZero) {
   Mesh mesh = test::grid(20);
   for (Index v = 0; v < mesh.vertex_count(); ++v) set_component(mesh.position, v, 2, 0);
-  for (const Placement placement : {Placement::subset, Placement::free}) {
+  for (const Placement placement : {Placement::subset, Placement::optimal}) {
     const Owned surface =
         simplified(of_mesh(mesh), {.target_triangles = 2, .placement = placement});
     ASSERT_GT(surface.collapses.size(), 390u);
@@ -222,7 +222,7 @@ TEST(ErrorBounds, EndAfterTheFirstThatIsTooLarge) {
 }
 
 TEST(ErrorBounds, HoldOnSmoothSurfaces) {
-  for (const Placement placement : {Placement::subset, Placement::free})
+  for (const Placement placement : {Placement::subset, Placement::optimal})
     for (const Metric metric : {Metric::qem, Metric::memoryless})
       for (const Mesh& mesh : {test::torus(30, 20), test::grid(25), test::cube(false)})
         EXPECT_EQ(broken_bound(
@@ -270,4 +270,4 @@ RC_GTEST_PROP(ErrorBounds, HoldForAnyCollapses, ()) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

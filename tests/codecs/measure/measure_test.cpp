@@ -8,7 +8,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Owned {
@@ -120,4 +120,4 @@ TEST(BoundingBoxDiagonal, LooksAtFinitePointsOnly) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -12,7 +12,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 Mesh mesh_of(Index vertices, std::vector<Index> corners, std::vector<Index> face_first = {}) {
@@ -138,4 +138,4 @@ TEST(Survey, CountsTheSameOnSeveralThreads) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

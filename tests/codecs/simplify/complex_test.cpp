@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // The triangles around vertex 0 of a flat fan, as pairs of next and previous.
@@ -62,4 +62,4 @@ TEST(Star, MeasuresItsTriangles) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

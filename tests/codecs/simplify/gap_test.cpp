@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // In squared model units: of a tip over a square of side 2 when it goes to the corner (1, 1, 0).
@@ -35,4 +35,4 @@ TEST(SquaredGap, IsToAnEdgeWhereNoFaceIsBelow) {
 TEST(SquaredGap, IsToTheOtherEndWhereNothingElseIsNear) { EXPECT_NEAR(gap_of(4, 5, 0), 25, 1e-4); }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 void expect_near(Vec3f a, Vec3f b, float distance) {
@@ -79,4 +79,4 @@ TEST(BestPlace, IsTheSameForFourEdgesAtOnce) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

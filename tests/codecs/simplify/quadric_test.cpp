@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 const Vec3f kNormal = {0.6f, 0, 0.8f}, kOther = {0, 1, 0};
@@ -57,4 +57,4 @@ TEST(Quadric, StaysTheSameWhenItsOwnerMoves) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

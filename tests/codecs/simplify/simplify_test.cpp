@@ -18,7 +18,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // A simplifier's input that owns its arrays.
@@ -70,8 +70,8 @@ struct Manner {
 constexpr Manner kManners[] = {
     {"subset, qem", Placement::subset, Metric::qem},
     {"subset, memoryless", Placement::subset, Metric::memoryless},
-    {"free, qem", Placement::free, Metric::qem},
-    {"free, memoryless", Placement::free, Metric::memoryless},
+    {"free, qem", Placement::optimal, Metric::qem},
+    {"free, memoryless", Placement::optimal, Metric::memoryless},
 };
 
 // Performs a sequence on a plain list of triangles, checking each step by the letter of the header.
@@ -279,7 +279,7 @@ TEST(Simplify, FollowsItsRulesOnGeneratedMeshes) {
         if (HasFatalFailure()) return;
         EXPECT_LE(sequence.triangles_left, target);
         EXPECT_EQ(sequence.stop, SimplifyStop::target);
-        const bool moves = manner.placement == Placement::free;
+        const bool moves = manner.placement == Placement::optimal;
         ASSERT_EQ(sequence.placements.size(), moves ? 3 * sequence.collapses.size() : 0);
         EXPECT_TRUE(
             std::ranges::all_of(sequence.placements, [](double x) { return std::isfinite(x); }));
@@ -710,4 +710,4 @@ TEST(Simplify, ReachesFivePercentOfEveryTopologyModel) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -82,4 +82,4 @@ TEST(VertexBuckets, KeepsTheOrderOfSteps) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

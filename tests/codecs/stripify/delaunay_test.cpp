@@ -13,7 +13,7 @@
 #include "codecs/stripify/stats.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Whole = __int128;
@@ -213,4 +213,4 @@ TEST(Delaunay, MakesFewerStripsThanPublished) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -8,7 +8,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::find_strip_fault;
@@ -73,4 +73,4 @@ TEST(DStrips, RankAsInThePaper) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -7,7 +7,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Opposite = std::vector<Index>;
@@ -59,4 +59,4 @@ RC_GTEST_PROP(DualGraph, OppositesRunTheOtherWayInTheSameGroup, (std::uint32_t s
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -13,7 +13,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::StripMesh;
@@ -104,4 +104,4 @@ TEST(Ftsg, GoesAsDeepAsTheMeshIsLarge) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

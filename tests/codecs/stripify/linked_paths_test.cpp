@@ -9,7 +9,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::StripMesh;
@@ -139,4 +139,4 @@ RC_GTEST_PROP(PathIndex, FindsEndsWhileLinksChange, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

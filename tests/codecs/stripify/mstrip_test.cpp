@@ -8,7 +8,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::find_strip_fault;
@@ -61,4 +61,4 @@ TEST(MStrip, TradesStripsForSwapsByTheGoal) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -12,7 +12,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::StripMesh;
@@ -100,4 +100,4 @@ TEST(MultiPath, WeighsAlikeAtAnyScale) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

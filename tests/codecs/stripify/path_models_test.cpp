@@ -5,7 +5,7 @@
 #include "tests/support/models.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // Bands around what was measured; `published` from [Vanecek05 table 8.3]. Where we are far from it
@@ -54,4 +54,4 @@ TEST(PathStripifiers, StayNearThePublishedFigures) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -16,7 +16,7 @@
 #include "tests/support/polygon_check.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::find_strip_fault;
@@ -299,4 +299,4 @@ TEST(PolygonStripifiers, StayFastAroundOneFaceAndOneEdge) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -9,7 +9,7 @@
 
 #include "codecs/stripify/random.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Whole = __int128;
@@ -102,14 +102,14 @@ TEST(Predicates, TellTheLastBit) {
 }
 
 TEST(Predicates, TakeAnyRange) {
-  constexpr double kLeast = 0x1p-1074, kMost = 0x1.fffffffffffffp1023;
-  EXPECT_EQ(orient({-kMost, -kMost}, {kMost, kMost}, {0, kLeast}), 1);
-  EXPECT_EQ(orient({-kMost, -kMost}, {kMost, kMost}, {kLeast, 0}), -1);
-  EXPECT_EQ(orient({-kMost, -kMost}, {kMost, kMost}, {0, -0.0}), 0);
-  EXPECT_EQ(in_circle({kMost, 0}, {0, kMost}, {-kMost, 0}, {kLeast, kLeast}), 1);
-  EXPECT_EQ(in_circle({kLeast, 0}, {0, kLeast}, {-kLeast, 0}, {0, -kMost}), -1);
+  constexpr double kLeast = 0x1p-1074, kMax = 0x1.fffffffffffffp1023;
+  EXPECT_EQ(orient({-kMax, -kMax}, {kMax, kMax}, {0, kLeast}), 1);
+  EXPECT_EQ(orient({-kMax, -kMax}, {kMax, kMax}, {kLeast, 0}), -1);
+  EXPECT_EQ(orient({-kMax, -kMax}, {kMax, kMax}, {0, -0.0}), 0);
+  EXPECT_EQ(in_circle({kMax, 0}, {0, kMax}, {-kMax, 0}, {kLeast, kLeast}), 1);
+  EXPECT_EQ(in_circle({kLeast, 0}, {0, kLeast}, {-kLeast, 0}, {0, -kMax}), -1);
   EXPECT_EQ(in_circle({kLeast, 0}, {0, kLeast}, {-kLeast, 0}, {0, -kLeast}), 0);
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -4,7 +4,7 @@
 
 #include "core/strips.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr Index kR = kRestart;
@@ -35,4 +35,4 @@ TEST(CacheMisses, TheFirstInIsTheFirstOut) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

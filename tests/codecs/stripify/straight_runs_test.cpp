@@ -10,7 +10,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 StripFaces faces_of(const Mesh& mesh) { return make_strip_faces(test::polygon_mesh(mesh).input()); }
@@ -71,4 +71,4 @@ TEST(StraightRuns, AreTheRingsOfATorus) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

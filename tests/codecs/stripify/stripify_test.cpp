@@ -8,7 +8,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::find_strip_fault;
@@ -115,9 +115,9 @@ TEST(Stripifiers, DoNotCrossSeams) {
 // [Vanecek05 table 8.9]: one strip, and one less than there are sides, unless turns around them
 // meet their own beginning.
 TEST(Sgi, NearsTheThesisOnATorus) {
-  constexpr std::pair<Index, std::uint64_t> kMostByVertices[] = {
+  constexpr std::pair<Index, std::uint64_t> kMaxByVertices[] = {
       {20, 19}, {50, 9}, {100, 19}, {200, 19}};
-  for (const auto& [segments, strips] : kMostByVertices) {
+  for (const auto& [segments, strips] : kMaxByVertices) {
     const StripMesh mesh = test::strip_mesh(test::torus(segments, 20));
     EXPECT_EQ(strip_stats(find_stripifier("sgi-strips")->run(mesh.input(), {})).strips, 1u);
     EXPECT_EQ(strip_stats(find_stripifier("sgi-vertices")->run(mesh.input(), {})).strips, strips);
@@ -227,4 +227,4 @@ TEST(Stripifiers, StayFastAroundOneVertexAndOneEdge) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -5,7 +5,7 @@
 #include "codecs/stripify/tetra_multi_path.h"
 #include "tests/support/tetra_meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Vertices = std::vector<Index>;
@@ -122,4 +122,4 @@ TEST(TetraStrips, AreCheckedByThemselves) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

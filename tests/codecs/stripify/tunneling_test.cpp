@@ -12,7 +12,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::find_strip_fault;
@@ -119,4 +119,4 @@ TEST(Tunneling, EndsWhenToldTo) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

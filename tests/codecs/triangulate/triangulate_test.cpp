@@ -9,7 +9,7 @@
 #include "core/strips.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // One polygon in the plane z = 0, counter-clockwise.
@@ -99,4 +99,4 @@ TEST(Triangulate, HugePolygonsStayLinear) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -16,7 +16,7 @@
 #include "codecs/vsplit/record.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Triple = std::array<Index, 3>;
@@ -183,7 +183,7 @@ RC_GTEST_PROP(Vsplit, RandomCollapsesOfRandomSoupAreUndoneExactly, ()) {
   const auto faces = *rc::gen::inRange<Index>(0, 60);
   const Scenario s = random_scenario(test::random_soup(seed, vertices, faces), seed);
   expect_exact(s, MapEncoding::naive);
-  expect_exact(s, MapEncoding::offset_difference);
+  expect_exact(s, MapEncoding::offset);
   RC_ASSERT(!::testing::Test::HasFatalFailure());
 }
 
@@ -193,7 +193,7 @@ TEST(Vsplit, OrderlyMeshesAreUndoneExactly) {
          {test::grid(6), test::torus(6, 5), test::cube(true), test::cube(false)}) {
       const Scenario s = random_scenario(mesh, seed);
       expect_exact(s, MapEncoding::naive);
-      expect_exact(s, MapEncoding::offset_difference);
+      expect_exact(s, MapEncoding::offset);
     }
 }
 
@@ -210,7 +210,7 @@ TEST(Vsplit, PolygonsLinesAndFaceAttributesComeBack) {
   ASSERT_EQ(find_inconsistency(mesh), "");
   for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
     const Scenario s = random_scenario(mesh, seed);
-    expect_exact(s, MapEncoding::offset_difference);
+    expect_exact(s, MapEncoding::offset);
   }
 }
 
@@ -219,7 +219,7 @@ TEST(Vsplit, PolygonsLinesAndFaceAttributesComeBack) {
 TEST(Level, LongChainsRewrittenOftenStayCheap) {
   constexpr Index kMany = 100'000;
   ProgressiveMesh mesh;
-  mesh.encoding = MapEncoding::offset_difference;
+  mesh.encoding = MapEncoding::offset;
   mesh.groups.resize(1);
   mesh.base_vertices = mesh.base_wedges = 1;
   mesh.base_map.assign(kMany, kSameAsMinus1);
@@ -227,8 +227,8 @@ TEST(Level, LongChainsRewrittenOftenStayCheap) {
   mesh.group_entries = {kMany};
   for (Index v = 1; v <= kMany; ++v) {
     mesh.vsplits.push_back({v - 1, 1, 0, 1});
-    mesh.wedge_places.push_back(1);
-    mesh.places.push_back(0);
+    mesh.wedge_offset_counts.push_back(1);
+    mesh.map_offsets.push_back(0);
   }
   mesh.position.data.resize(12 * (std::size_t{kMany} + 1));
   Level level(mesh);
@@ -240,11 +240,12 @@ TEST(Level, LongChainsRewrittenOftenStayCheap) {
 // [Kim04 Fig. 5]: with symbols fewer entries are rewritten.
 TEST(Vsplit, SymbolsKeepEntriesOutOfTheRecords) {
   const Scenario s = random_scenario(test::grid(8), 5);
-  const auto naive = record(s.mesh, s.strips, s.sequence, MapEncoding::naive).mesh.places.size();
+  const auto naive =
+      record(s.mesh, s.strips, s.sequence, MapEncoding::naive).mesh.map_offsets.size();
   const auto offset =
-      record(s.mesh, s.strips, s.sequence, MapEncoding::offset_difference).mesh.places.size();
+      record(s.mesh, s.strips, s.sequence, MapEncoding::offset).mesh.map_offsets.size();
   EXPECT_LT(offset, naive);
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

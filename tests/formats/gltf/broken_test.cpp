@@ -6,7 +6,7 @@
 
 #include "tests/formats/gltf/files.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::Asset;
@@ -287,4 +287,4 @@ TEST(BrokenGltf, NestingIsNotFollowedForEver) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

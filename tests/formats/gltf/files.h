@@ -12,7 +12,7 @@
 #include "formats/gltf/container.h"
 #include "formats/gltf/gltf.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 inline Bytes load(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -108,4 +108,4 @@ inline Result<Model> read_text(const std::string& json, const Limits& limits = {
   return read_gltf(as_bytes(json), {}, limits, dropped);
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

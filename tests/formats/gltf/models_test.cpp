@@ -13,7 +13,7 @@
 #include "tests/formats/gltf/files.h"
 #include "tests/support/paths.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,4 +141,4 @@ TEST(GltfModels, ReadAndComeBackOrSayWhyNot) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

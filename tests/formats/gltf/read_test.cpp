@@ -4,7 +4,7 @@
 
 #include "tests/formats/gltf/files.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::Asset;
@@ -378,4 +378,4 @@ TEST(ReadGltf, AsksOnlyForFilesInsideTheFolder) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -7,7 +7,7 @@
 #include "tests/formats/gltf/files.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Triangle = std::array<std::array<float, 3>, 3>;
@@ -279,4 +279,4 @@ TEST(WriteGltf, UnknownChunksComeBack) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

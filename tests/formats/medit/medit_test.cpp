@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr std::string_view kHead = "MeshVersionFormatted 1\nDimension 3\n";
@@ -110,4 +110,4 @@ TEST(WriteTetraStrips, IsAStripALine) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

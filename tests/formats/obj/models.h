@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 inline std::string load(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -26,4 +26,4 @@ inline std::vector<std::filesystem::path> obj_files(const std::filesystem::path&
   return out;
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -4,7 +4,7 @@
 
 #include "formats/obj/obj.h"
 
-namespace pstrip::obj {
+namespace pstrips::obj {
 namespace {
 
 TEST(CompanionPath, NeverLeavesTheFolder) {
@@ -72,4 +72,4 @@ TEST(GroupName, SurvivesAnyObjectAndGroup) {
 }
 
 }  // namespace
-}  // namespace pstrip::obj
+}  // namespace pstrips::obj

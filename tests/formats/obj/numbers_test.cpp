@@ -10,7 +10,7 @@
 #include <random>
 #include <string_view>
 
-namespace pstrip::obj {
+namespace pstrips::obj {
 namespace {
 
 std::uint64_t bits(double v) { return std::bit_cast<std::uint64_t>(v); }
@@ -137,4 +137,4 @@ TEST(AppendNumber, ReadsBackToTheSameDouble) {
 }
 
 }  // namespace
-}  // namespace pstrip::obj
+}  // namespace pstrips::obj

@@ -10,7 +10,7 @@
 #include "tests/formats/obj/support.h"
 #include "tests/support/paths.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -116,4 +116,4 @@ TEST(ObjModels, ReadAndSurviveTheRoundTripOrSayWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

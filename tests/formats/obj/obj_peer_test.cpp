@@ -7,7 +7,7 @@
 #include "tests/formats/obj/support.h"
 #include "tests/support/paths.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 /// The peer scales by powers of ten in doubles, right to about 15 digits; a float is the nearest.
@@ -87,4 +87,4 @@ TEST(ObjPeer, TinyobjloaderReadsTheSame) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

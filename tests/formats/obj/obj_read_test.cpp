@@ -6,7 +6,7 @@
 #include "formats/obj/census.h"
 #include "tests/formats/obj/support.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -437,4 +437,4 @@ TEST(ReadObj, DoesNotMultiplyALongObjectName) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -8,7 +8,7 @@
 #include "formats/obj/runs.h"
 #include "tests/formats/obj/support.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 /// Lines that fit the vertices made so far; now and then one that does not.
@@ -102,4 +102,4 @@ TEST(ReadObjInRuns, ReadsWhatOneReaderReads) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

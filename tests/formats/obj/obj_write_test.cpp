@@ -6,7 +6,7 @@
 #include "tests/formats/obj/support.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 namespace {
 
 template <class T>
@@ -228,4 +228,4 @@ TEST(ReadObj, TakesAnyDamage) {
 }
 
 }  // namespace
-}  // namespace pstrip::test
+}  // namespace pstrips::test

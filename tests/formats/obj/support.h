@@ -7,7 +7,7 @@
 #include "core/scene.h"
 #include "formats/obj/obj.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 /// Companion files in memory.
 inline ReadFile files(std::map<std::string, std::string> by_name) {
@@ -64,4 +64,4 @@ inline std::string check_round_trip(const Model& model) {
   return {};
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

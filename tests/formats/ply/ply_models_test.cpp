@@ -12,7 +12,7 @@
 #include "tests/formats/ply/ply_text.h"
 #include "tests/support/paths.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 struct Refused {
@@ -118,4 +118,4 @@ TEST(PlyModels, ComeBackExactlyOrAreRefusedForAKnownReason) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -9,7 +9,7 @@
 #include "formats/ply/ply_runs.h"
 #include "tests/formats/ply/ply_text.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 const std::string kSeeds[] = {
@@ -138,4 +138,4 @@ TEST(PlyMutation, WhatIsAcceptedComesBack) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

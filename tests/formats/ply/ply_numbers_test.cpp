@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace pstrip::ply {
+namespace pstrips::ply {
 namespace {
 
 template <class T>
@@ -106,4 +106,4 @@ TEST(PlyNumbers, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace pstrip::ply
+}  // namespace pstrips::ply

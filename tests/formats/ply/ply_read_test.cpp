@@ -7,7 +7,7 @@
 #include "formats/ply/ply.h"
 #include "tests/formats/ply/ply_text.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::describe;
@@ -539,4 +539,4 @@ TEST(ReadPly, CallsEveryPrefixOfAnAsciiFileTruncated) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

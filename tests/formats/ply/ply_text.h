@@ -5,7 +5,7 @@
 
 #include "formats/ply/ply.h"
 
-namespace pstrip::test {
+namespace pstrips::test {
 
 inline std::string describe(const Attribute& a) {
   std::ostringstream out;
@@ -52,4 +52,4 @@ inline std::string round_trip_failure(const Model& model) {
   return {};
 }
 
-}  // namespace pstrip::test
+}  // namespace pstrips::test

@@ -10,7 +10,7 @@
 #include "tests/formats/ply/ply_text.h"
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Format = PlyWriteOptions::Format;
@@ -414,4 +414,4 @@ RC_GTEST_PROP(WritePlyProperty, RecoversSoups, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

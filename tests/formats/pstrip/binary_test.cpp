@@ -1,4 +1,4 @@
-#include "formats/pstrip/binary.h"
+#include "formats/pstrip/container/binary.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -8,12 +8,12 @@
 #include <cstring>
 #include <random>
 
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/chunks.h"
-#include "formats/pstrip/layout.h"
+#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/layout.h"
 #include "tests/support/progressive.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using test::ProgressiveOptions;
@@ -25,8 +25,8 @@ ProgressiveStrips rich_strips() {
   return random_progressive(7, {.meshes = 2,
                                 .base_vertices = 4,
                                 .vsplits = 5,
-                                .encoding = MapEncoding::offset_difference,
-                                .placement = Placement::free,
+                                .encoding = MapEncoding::offset,
+                                .placement = Placement::optimal,
                                 .single_wedges = false,
                                 .scene = true,
                                 .faces = true,
@@ -342,7 +342,7 @@ TEST(Binary, RefusesBadFieldsWithCodeAndChunk) {
       {"packet_vsplits", kPacketChunk, 8, 0xffff'ffff, ErrorCode::corrupt},
       {"packet_wedges", kPacketChunk, 12, 0xffff'ffff, ErrorCode::corrupt},
       {"packet_carried", kPacketChunk, 16, 0xffff'ffff, ErrorCode::corrupt},
-      {"packet_places", kPacketChunk, 20, 0xffff'ffff, ErrorCode::corrupt},
+      {"packet_offsets", kPacketChunk, 20, 0xffff'ffff, ErrorCode::corrupt},
       {"packet_parent", kPacketChunk, 24, 0xffff'fff0, ErrorCode::corrupt},
       {"faces_mesh", kFacesChunk, 0, 1, ErrorCode::corrupt},
       {"faces_count", kFacesChunk, 4, 0xffff'ffff, ErrorCode::corrupt},
@@ -427,7 +427,7 @@ TEST(Binary, LimitsAreAnAnswerOfTheirOwn) {
 TEST(Binary, ARefusedChunkLeavesTheStripsAsTheyWere) {
   const ProgressiveStrips strips = random_progressive(
       21,
-      {.vsplits = 6, .packet_vsplits = 3, .placement = Placement::free, .single_wedges = false});
+      {.vsplits = 6, .packet_vsplits = 3, .placement = Placement::optimal, .single_wedges = false});
   Bytes file = write_binary(strips).value();
   // The last record of the second packet gets a parent that does not exist.
   put_u32(payload_of(file, kPacketChunk, 1), 24 + 8, 0x7fff'ffff);
@@ -478,4 +478,4 @@ RC_GTEST_PROP(PackedArrays, ComeBack, ()) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -1,4 +1,4 @@
-#include "formats/pstrip/check.h"
+#include "formats/pstrip/payload/check.h"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,15 @@
 
 #include "tests/support/progressive.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 ProgressiveStrips strips_with_all() {
   return test::random_progressive(7, {.meshes = 2,
                                       .base_vertices = 4,
                                       .vsplits = 5,
-                                      .encoding = MapEncoding::offset_difference,
-                                      .placement = Placement::free,
+                                      .encoding = MapEncoding::offset,
+                                      .placement = Placement::optimal,
                                       .single_wedges = false,
                                       .scene = true,
                                       .faces = true,
@@ -71,8 +71,8 @@ constexpr BadStrips kRows[] = {
     {"packet_vertices", [](auto& s) { ++s.packets[1].vertices; }, "/packets/1"},
     {"parent", [](auto& s) { s.meshes[0].vsplits[3].parent = 8; }, "/meshes/0/vsplits/3"},
     {"wedges_wrap", [](auto& s) { s.meshes[0].vsplits[3].wedges = 0xffff'ffff; }, "/meshes/0"},
-    {"places_short", [](auto& s) { s.meshes[0].places.pop_back(); }, "/meshes/0"},
-    {"places_long", [](auto& s) { s.meshes[0].places.push_back(0); }, "/meshes/0"},
+    {"places_short", [](auto& s) { s.meshes[0].map_offsets.pop_back(); }, "/meshes/0"},
+    {"places_long", [](auto& s) { s.meshes[0].map_offsets.push_back(0); }, "/meshes/0"},
     {"position_short", [](auto& s) { s.meshes[0].position.data.pop_back(); }, "/meshes/0"},
     {"parent_position", [](auto& s) { s.meshes[1].parent_position.clear(); }, "/meshes/1"},
     {"missing_packet",
@@ -118,22 +118,22 @@ TEST(Check, NamesWhatIsWrong) {
 TEST(Check, RecordsStayInRange) {
   const ProgressiveStrips good = strips_with_all();
   const ProgressiveMesh& mesh = good.meshes[0];
-  // Every place on a restart or past the end, every carried wedge past those that are there.
-  for (std::size_t i = 0; i < mesh.places.size(); ++i)
+  // Every place on a restart or past the end, every reassigned wedge past those that are there.
+  for (std::size_t i = 0; i < mesh.map_offsets.size(); ++i)
     for (const Index place :
          {static_cast<Index>(mesh.base_map.size()), kNone,
           static_cast<Index>(std::ranges::find(mesh.base_map, kRestart) - mesh.base_map.begin())}) {
       ProgressiveStrips bad = good;
-      bad.meshes[0].places[i] = place;
+      bad.meshes[0].map_offsets[i] = place;
       EXPECT_FALSE(check(bad)) << i << " " << place;
     }
-  for (std::size_t i = 0; i < mesh.carried.size(); ++i) {
+  for (std::size_t i = 0; i < mesh.reassigned.size(); ++i) {
     ProgressiveStrips bad = good;
-    bad.meshes[0].carried[i] = mesh.wedges - 1;
+    bad.meshes[0].reassigned[i] = mesh.wedges - 1;
     EXPECT_FALSE(check(bad)) << i;
   }
-  EXPECT_FALSE(mesh.places.empty());
-  EXPECT_FALSE(mesh.carried.empty());
+  EXPECT_FALSE(mesh.map_offsets.empty());
+  EXPECT_FALSE(mesh.reassigned.empty());
 }
 
 TEST(Check, PacketsFollowEachOther) {
@@ -143,10 +143,11 @@ TEST(Check, PacketsFollowEachOther) {
     PacketStart at = first_packet(mesh);
     for (const Packet& packet : good.packets)
       if (packet.mesh == m) at = packet_after(mesh, at, packet.vsplits);
-    EXPECT_EQ(at, (PacketStart{mesh.vsplits.size(), mesh.wedge_places.size(), mesh.carried.size(),
-                               mesh.places.size(), mesh.vertices, mesh.wedges}));
+    EXPECT_EQ(at, (PacketStart{mesh.vsplits.size(), mesh.wedge_offset_counts.size(),
+                               mesh.reassigned.size(), mesh.map_offsets.size(), mesh.vertices,
+                               mesh.wedges}));
   }
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -1,15 +1,15 @@
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/chunks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/parts.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/parts.h"
 #include "tests/support/progressive.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 Bytes small_file() {
@@ -123,8 +123,8 @@ TEST(Parts, CountWhatTheArraysTake) {
   EXPECT_EQ(bytes[Part::base_map], padded(4 * mesh.base_map.size()));
   EXPECT_EQ(bytes[Part::parents], padded(4 * 8));
   EXPECT_EQ(bytes[Part::positions], padded(8 * mesh.position.element_bytes()));
-  EXPECT_EQ(bytes[Part::places], padded(4 * mesh.places.size()));
-  EXPECT_EQ(bytes[Part::carried], padded(4 * mesh.carried.size()));
+  EXPECT_EQ(bytes[Part::map_offsets], padded(4 * mesh.map_offsets.size()));
+  EXPECT_EQ(bytes[Part::reassigned], padded(4 * mesh.reassigned.size()));
   EXPECT_EQ(bytes[Part::packet_index], 8u + 2 * 40);
 }
 
@@ -144,4 +144,4 @@ TEST(Parts, ListBrokenFilesToo) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

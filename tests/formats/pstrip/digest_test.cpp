@@ -1,4 +1,4 @@
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/payload/digest.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 // The bytes of the digest of spec/example.md were worked out apart from this code; its test holds
@@ -72,4 +72,4 @@ TEST(Digest, SeesEverythingElse) {
 TEST(Digest, OfNothingIsSomething) { EXPECT_NE(digest(test::triangle_mesh({}, {})), Digest{}); }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

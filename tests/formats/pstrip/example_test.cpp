@@ -7,21 +7,21 @@
 #include <iterator>
 #include <sstream>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/digest.h"
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/digest.h"
+#include "formats/pstrip/xml/xml.h"
 #include "tests/support/paths.h"
 #include "tests/support/progressive.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 /// A square pyramid without its bottom: the apex is collapsed into the first corner of the square.
 ProgressiveStrips pyramid() {
   ProgressiveMesh mesh;
   mesh.name = "roof";
-  mesh.encoding = MapEncoding::offset_difference;
+  mesh.encoding = MapEncoding::offset;
   mesh.groups.resize(1);
   mesh.position = {"POSITION", ComponentType::f32, 3, false, {}};
   const float corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5f, 0.5f, 0.25f}};
@@ -30,9 +30,9 @@ ProgressiveStrips pyramid() {
   mesh.base_vertices = mesh.base_wedges = 4;
   mesh.base_map = {0, 1, kSameAsMinus2, 2, 3, kRestart, 3, 0, kSameAsMinus1};
   mesh.group_entries = {9};
-  mesh.vsplits = {{.parent = 0, .wedges = 1, .carried = 0, .places = 2}};
-  mesh.wedge_places = {2};
-  mesh.places = {2, 8};
+  mesh.vsplits = {{.parent = 0, .wedges = 1, .reassigned = 0, .map_offsets = 2}};
+  mesh.wedge_offset_counts = {2};
+  mesh.map_offsets = {2, 8};
   mesh.vertices = mesh.wedges = 5;
   mesh.triangles = 4;
   mesh.strips = 2;
@@ -101,4 +101,4 @@ TEST(Example, PageShowsTheXml) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

@@ -1,4 +1,4 @@
-#include "formats/pstrip/text.h"
+#include "formats/pstrip/text/text.h"
 
 #include <gtest/gtest.h>
 
@@ -7,12 +7,12 @@
 #include <iterator>
 #include <random>
 
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/face_finder.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/text/face_finder.h"
 #include "tests/support/paths.h"
 #include "tests/support/progressive.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr std::string_view kExchanged =
@@ -113,7 +113,7 @@ TEST(Text, CarriesTheTrianglesOfEveryLevel) {
 TEST(Text, CarriesCollapsesAndWhereVerticesMove) {
   for (std::uint32_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
-    const Placement placement = seed % 2 == 0 ? Placement::free : Placement::subset;
+    const Placement placement = seed % 2 == 0 ? Placement::optimal : Placement::subset;
     const ProgressiveStrips strips = test::random_progressive(seed, {.placement = placement});
     const ProgressiveMesh& mesh = strips.meshes[0];
     const auto read = read_text(as_bytes(written(strips)));
@@ -173,8 +173,8 @@ ProgressiveStrips square(bool texture) {
   mesh.group_entries = {4};
   mesh.base_vertices = mesh.base_wedges = 3;
   mesh.vsplits = {{1, 1, 0, 1}};
-  mesh.wedge_places = {1};
-  mesh.places = {3};
+  mesh.wedge_offset_counts = {1};
+  mesh.map_offsets = {3};
   mesh.vertices = mesh.wedges = 4;
   mesh.triangles = 2;
   mesh.strips = 1;
@@ -192,7 +192,7 @@ TEST(Text, WritesTheRecordOfThePaper) {
   ProgressiveStrips textured = square(true);
   // The first triangle goes to the new vertex, so its texture coordinates change; the second one
   // is new and needs those of the parent.
-  textured.meshes[0].places = {1};
+  textured.meshes[0].map_offsets = {1};
   EXPECT_EQ(written(textured),
             "# pstrips text 1.0 vertices=4 faces=2 vsplits=1 position=f32 texture=f32\n"
             "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -350,7 +350,7 @@ TEST(Text, LimitsAreAnswersOfTheirOwn) {
 
 TEST(Text, RefusesRecordsThatChangeForeignEntries) {
   ProgressiveStrips strips = square(false);
-  strips.meshes[0].places = {0};
+  strips.meshes[0].map_offsets = {0};
   const auto file = write_text(strips);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::corrupt);
@@ -374,10 +374,10 @@ TEST(Text, WritesWhatItCanReadOrNothing) {
         mesh.vsplits[random() % mesh.vsplits.size()].parent = static_cast<Index>(random() % 8);
         break;
       case 1:
-        change(mesh.places, static_cast<Index>(mesh.base_map.size()));
+        change(mesh.map_offsets, static_cast<Index>(mesh.base_map.size()));
         break;
       case 2:
-        change(mesh.carried, mesh.wedges);
+        change(mesh.reassigned, mesh.wedges);
         break;
       case 3:
         change(mesh.base_wedge_vertex, mesh.base_vertices);
@@ -417,7 +417,7 @@ TEST(Text, RefusesQuadraticRecords) {
   constexpr Index kSize = 3000;
   ProgressiveStrips strips = square(false);
   ProgressiveMesh& mesh = strips.meshes[0];
-  mesh.encoding = MapEncoding::offset_difference;
+  mesh.encoding = MapEncoding::offset;
   mesh.base_map.assign(1, 0);
   for (Index i = 0; i < kSize; ++i)
     mesh.base_map.insert(mesh.base_map.end(), {1 + i % 2, kSameAsMinus2});
@@ -425,8 +425,8 @@ TEST(Text, RefusesQuadraticRecords) {
   mesh.position.data.resize((3 + kSize) * 12);
   mesh.vsplits.clear();
   for (Index i = 0; i < kSize; ++i) mesh.vsplits.push_back({i == 0 ? 0 : 2 + i, 1, 0, 1});
-  mesh.wedge_places.assign(kSize, 1);
-  mesh.places.assign(kSize, 0);
+  mesh.wedge_offset_counts.assign(kSize, 1);
+  mesh.map_offsets.assign(kSize, 0);
   mesh.vertices = mesh.wedges = 3 + kSize;
   strips.packets[0].vsplits = kSize;
   Limits limits;
@@ -471,4 +471,4 @@ TEST(FaceFinder, AgreesWithASlowOne) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

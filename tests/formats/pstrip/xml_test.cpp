@@ -1,4 +1,4 @@
-#include "formats/pstrip/xml.h"
+#include "formats/pstrip/xml/xml.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <random>
 
 #include "formats/pstrip/numbers.h"
-#include "formats/pstrip/xml_text.h"
+#include "formats/pstrip/xml/xml_text.h"
 #include "tests/support/paths.h"
 #include "tests/support/progressive.h"
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 constexpr std::uint32_t kSeeds = 200;
@@ -63,8 +63,8 @@ TEST(Xml, GivesIncompleteStripsBack) {
   strips.complete = false;
   strips.packets.resize(1);
   mesh.vsplits.resize(2);
-  mesh.wedge_places.resize(2);
-  mesh.places.resize(mesh.vsplits[0].places + mesh.vsplits[1].places);
+  mesh.wedge_offset_counts.resize(2);
+  mesh.map_offsets.resize(mesh.vsplits[0].map_offsets + mesh.vsplits[1].map_offsets);
   mesh.position.data.resize((mesh.base_vertices + 2) * mesh.position.element_bytes());
   for (Attribute& a : mesh.wedge_attributes)
     a.data.resize((mesh.base_wedges + 2) * a.element_bytes());
@@ -251,7 +251,7 @@ const BadEdit kBadEdits[] = {
     {"position_more", "<positions>", "<positions>0 ", ErrorCode::corrupt},
     {"position_word", "<positions>", "<positions>x", ErrorCode::corrupt},
     {"parent_past_end", "parent=\"", "parent=\"9", ErrorCode::corrupt},
-    {"place_past_end", "places=\"", "places=\"99999 ", ErrorCode::corrupt},
+    {"offset_past_end", "map_offsets=\"", "map_offsets=\"99999 ", ErrorCode::corrupt},
     {"vsplit_count", "first_vsplit=\"0\" vsplits=\"2\"", "first_vsplit=\"0\" vsplits=\"1\"",
      ErrorCode::corrupt},
     {"digest_algorithm", "SHA-256", "MD5", ErrorCode::unsupported},
@@ -404,4 +404,4 @@ TEST(XmlSchema, RefusesWhatTheReaderRefuses) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

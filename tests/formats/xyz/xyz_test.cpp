@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace pstrip {
+namespace pstrips {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -86,4 +86,4 @@ TEST(ReadXyz, SaysWhereItStops) {
 }
 
 }  // namespace
-}  // namespace pstrip
+}  // namespace pstrips

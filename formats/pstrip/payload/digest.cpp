@@ -1,4 +1,4 @@
-#include "formats/pstrip/digest.h"
+#include "formats/pstrip/payload/digest.h"
 
 #include <openssl/evp.h>
 
@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 class Sha256 {
@@ -77,4 +77,4 @@ Digest digest(const Mesh& decoded) {
   return sha.finish();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

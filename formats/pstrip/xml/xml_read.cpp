@@ -4,15 +4,15 @@
 #include <charconv>
 #include <limits>
 
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/chunks.h"
 #include "formats/pstrip/numbers.h"
-#include "formats/pstrip/xml.h"
-#include "formats/pstrip/xml_names.h"
-#include "formats/pstrip/xml_scan.h"
-#include "formats/pstrip/xml_text.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/xml/xml.h"
+#include "formats/pstrip/xml/xml_names.h"
+#include "formats/pstrip/xml/xml_scan.h"
+#include "formats/pstrip/xml/xml_text.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 using tinyxml2::XMLElement;
@@ -464,14 +464,15 @@ class Reader {
     Vsplit v{};
     v.parent = attributes.index("parent");
     read_element_attribute(in_, at, attributes, "position", mesh.position, mesh.position.data);
-    if (mesh.placement == Placement::free)
+    if (mesh.placement == Placement::optimal)
       read_element_attribute(in_, at, attributes, "parent_position", mesh.position,
                              mesh.parent_position);
     if (mesh.single_wedges) {
       read_wedge(at, attributes, mesh, v);
       finish_empty(attributes, at);
     } else {
-      if (attributes.has("carried")) v.carried = attributes.indices("carried", mesh.carried);
+      if (attributes.has("reassigned"))
+        v.reassigned = attributes.indices("reassigned", mesh.reassigned);
       attributes.finish();
       Children children(in_, at);
       while (const XMLElement* e = children.take_if("wedge")) {
@@ -491,9 +492,9 @@ class Reader {
         if (in_.ok()) read_element(in_, at, tokens, a, a.data, "values");
       if (in_.ok() && !tokens.at_end()) in_.fail(at, "more numbers than announced", "values");
     }
-    const Index places = attributes.indices("places", mesh.places);
-    mesh.wedge_places.push_back(places);
-    v.places += places;
+    const Index map_offsets = attributes.indices("map_offsets", mesh.map_offsets);
+    mesh.wedge_offset_counts.push_back(map_offsets);
+    v.map_offsets += map_offsets;
     ++v.wedges;
   }
 
@@ -801,4 +802,4 @@ bool looks_like_xml(ByteView start) {
   return Tokens(text).next().starts_with('<');
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -6,13 +6,13 @@
 
 #include "core/progressive_strips.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // Words that stand for values in the XML variant. [spec/xml.md §5]
 
 /// In the order of the enumeration that each belongs to.
-inline constexpr std::array<std::string_view, 2> kEncodingNames = {"naive", "offset-difference"};
-inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "free"};
+inline constexpr std::array<std::string_view, 2> kEncodingNames = {"naive", "offset"};
+inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "optimal"};
 inline constexpr std::array<std::string_view, 3> kFaceKindNames = {"polygons", "lines", "points"};
 /// From kSameAsMinus2 to kRestart.
 inline constexpr std::array<std::string_view, 5> kMarkerNames = {"R-2", "R-1", "R+1", "R+2", "|"};
@@ -28,4 +28,4 @@ inline std::string_view name_of(FaceKind v) { return kFaceKindNames[static_cast<
 /// Precondition: !is_wedge(entry).
 inline std::string_view name_of_marker(Index entry) { return kMarkerNames[entry - kSameAsMinus2]; }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "formats/pstrip/face_finder.h"
 #include "formats/pstrip/numbers.h"
-#include "formats/pstrip/text.h"
+#include "formats/pstrip/text/face_finder.h"
+#include "formats/pstrip/text/text.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 /// How much work a replay may do for each byte of Limits::memory_bytes: what is kept of an entry
@@ -20,9 +20,9 @@ class Replay {
       : mesh_(mesh),
         resolved_(std::move(resolved)),
         wedge_vertex_(mesh.base_wedge_vertex),
-        linked_(!mesh.carried.empty()),
+        linked_(!mesh.reassigned.empty()),
         max_work_(max_work) {
-    if (mesh.encoding == MapEncoding::offset_difference) symbols_ = mesh.base_map;
+    if (mesh.encoding == MapEncoding::offset) symbols_ = mesh.base_map;
     if (mesh.single_wedges) {
       wedge_vertex_.resize(mesh.base_wedges);
       std::iota(wedge_vertex_.begin(), wedge_vertex_.end(), Index{0});
@@ -39,8 +39,8 @@ class Replay {
     const Index vertex = mesh_.base_vertices + vsplit;
     touched_.clear();
     outcome_ = Outcome::applied;
-    for (Index k = 0; k < split.carried; ++k) {
-      const Index wedge = mesh_.carried[carried_++];
+    for (Index k = 0; k < split.reassigned; ++k) {
+      const Index wedge = mesh_.reassigned[reassigned_++];
       if (wedge_vertex_[wedge] != split.parent) return Outcome::broken;
       wedge_vertex_[wedge] = vertex;
       for (Index at = first_place_[wedge]; at != kNone; at = next_place_[at])
@@ -50,8 +50,8 @@ class Replay {
       const auto wedge = static_cast<Index>(wedge_vertex_.size());
       wedge_vertex_.push_back(vertex);
       if (linked_) first_place_.push_back(kNone);
-      for (Index n = mesh_.wedge_places[wedge_place_++]; n > 0; --n)
-        if (!write(mesh_.places[place_++], wedge, split.parent, vertex)) return outcome_;
+      for (Index n = mesh_.wedge_offset_counts[wedge_place_++]; n > 0; --n)
+        if (!write(mesh_.map_offsets[map_offset_++], wedge, split.parent, vertex)) return outcome_;
     }
     std::ranges::sort(touched_);
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
@@ -93,7 +93,7 @@ class Replay {
     return true;
   }
 
-  // Entries of each wedge, doubly linked; needed only when wedges are carried.
+  // Entries of each wedge, doubly linked; needed only when wedges are reassigned.
   void link_all() {
     first_place_.assign(mesh_.base_wedges, kNone);
     next_place_.assign(resolved_.size(), kNone);
@@ -125,7 +125,7 @@ class Replay {
   bool linked_;
   std::vector<Index> first_place_, next_place_, previous_place_;
   std::vector<Index> touched_, pending_;
-  std::size_t wedge_place_ = 0, carried_ = 0, place_ = 0;
+  std::size_t wedge_place_ = 0, reassigned_ = 0, map_offset_ = 0;
   std::uint64_t work_ = 0, max_work_;
   Outcome outcome_ = Outcome::applied;
 };
@@ -348,7 +348,7 @@ class MeshWriter {
   }
 
   void move_parent(Index split) {
-    if (mesh_->placement != Placement::free) return;
+    if (mesh_->placement != Placement::optimal) return;
     const std::size_t bytes = mesh_->position.element_bytes();
     std::memcpy(positions_.data() + mesh_->vsplits[split].parent * bytes,
                 mesh_->parent_position.data() + split * bytes, bytes);
@@ -588,7 +588,7 @@ Result<TextFile> write_text(const ProgressiveStrips& strips, const Limits& limit
   std::uint64_t key = 0;
   std::vector<MeshWriter> meshes;
   for (Index m = 0; m < strips.meshes.size(); ++m) {
-    key ^= fingerprint(std::as_bytes(std::span(strips.meshes[m].places)));
+    key ^= fingerprint(std::as_bytes(std::span(strips.meshes[m].map_offsets)));
     Result<MeshWriter> mesh =
         MeshWriter::make(strips.meshes[m], m, textured, limits.memory_bytes / kBytesPerEntry);
     if (!mesh) return tl::unexpected<Error>(mesh.error());
@@ -617,4 +617,4 @@ Result<TextFile> write_text(const ProgressiveStrips& strips, const Limits& limit
   return TextFile{std::move(bytes), std::move(losses).take()};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -9,7 +9,7 @@
 #include "core/bytes.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // The frame of the binary variant: a signature, then chunks. [spec/container.md §1, §2]
 
@@ -86,4 +86,4 @@ ChunkList read_chunks(ByteView file);
 /// The CRC-32 of PNG and zlib over the type, length, payload and padding of a chunk.
 std::uint32_t chunk_crc(ByteView bytes);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

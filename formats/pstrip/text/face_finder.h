@@ -7,7 +7,7 @@
 #include "core/bytes.h"
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// A number that depends on all bytes, to key a hash table with: whoever makes a file cannot
 /// choose colliding faces, since they change the key.
@@ -42,4 +42,4 @@ class FaceFinder {
   std::size_t used_ = 0;            // entries that are not kNone
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -1,10 +1,10 @@
-#include "formats/pstrip/parts.h"
+#include "formats/pstrip/container/parts.h"
 
 #include <array>
 
-#include "formats/pstrip/layout.h"
+#include "formats/pstrip/payload/layout.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 using namespace layout;
@@ -99,7 +99,7 @@ std::string_view name_of(Part part) {
   constexpr std::array<std::string_view, 20> kNames = {
       "container", "mesh_header", "packet_index", "base_positions", "base_wedges",
       "base_map",  "parents",     "counts",       "positions",      "parent_positions",
-      "wedges",    "carried",     "places",       "faces",          "order",
+      "wedges",    "reassigned",  "map_offsets",  "faces",          "order",
       "digest",    "scene",       "images",       "foreign",        "unknown"};
   return kNames[static_cast<std::size_t>(part)];
 }
@@ -112,4 +112,4 @@ std::vector<PartSpan> list_parts(const ChunkList& chunks, const Limits& limits) 
   return lister.take();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

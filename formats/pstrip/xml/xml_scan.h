@@ -6,7 +6,7 @@
 #include "core/limits.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// What the markup of a document amounts to.
 struct XmlExtent {
@@ -28,4 +28,4 @@ Result<XmlExtent> scan_xml(ByteView document, const Limits& limits);
 /// Where a line starts; the end of the document for a line past it. Lines count from 1.
 std::uint64_t offset_of_line(ByteView document, std::uint64_t line);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

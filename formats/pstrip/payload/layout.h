@@ -8,9 +8,9 @@
 
 #include "core/bytes.h"
 #include "core/progressive_strips.h"
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/parts.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/parts.h"
+#include "formats/pstrip/payload/check.h"
 
 // For formats/pstrip and validators: the wire layout of each payload, once, for reading, writing,
 // sizing and listing. [spec/container.md §5 to §9]
@@ -19,7 +19,7 @@
 // is the Io's business: ReadIo fills v, WriteIo writes v, SizeIo adds up the bytes, PartIo notes
 // which bytes belong to what. v is const for all but ReadIo.
 
-namespace pstrip::layout {
+namespace pstrips::inline formats::layout {
 
 inline constexpr std::size_t kArrayAlignment = 8;
 inline constexpr std::size_t kMinStringBytes = 4;
@@ -424,7 +424,7 @@ void base_array_fields(Io& io, const BaseHead& h, M& mesh) {
 }
 
 struct PacketHead {
-  Index mesh = 0, first_vsplit = 0, vsplits = 0, wedges = 0, carried = 0, places = 0;
+  Index mesh = 0, first_vsplit = 0, vsplits = 0, wedges = 0, reassigned = 0, map_offsets = 0;
 };
 
 inline constexpr std::uint64_t kPacketHeadBytes = 24;
@@ -435,8 +435,8 @@ void packet_head_fields(Io& io, H& h) {
   io.number(h.first_vsplit);
   io.number(h.vsplits);
   io.number(h.wedges);
-  io.number(h.carried);
-  io.number(h.places);
+  io.number(h.reassigned);
+  io.number(h.map_offsets);
 }
 
 /// start  where the packet's part of each of the mesh's lists begins
@@ -449,17 +449,17 @@ void packet_array_fields(Io& io, const PacketHead& h, M& mesh, const PacketStart
   if (!mesh.single_wedges) {
     io.column(mesh.vsplits, &Vsplit::wedges, start.vsplit, h.vsplits);
     io.align();
-    io.column(mesh.vsplits, &Vsplit::carried, start.vsplit, h.vsplits);
+    io.column(mesh.vsplits, &Vsplit::reassigned, start.vsplit, h.vsplits);
     io.align();
   }
   // With single wedges there is one new wedge a vsplit: the same list serves both forms.
-  io.run(mesh.wedge_places, start.wedge_place, h.wedges);
+  io.run(mesh.wedge_offset_counts, start.offset_count, h.wedges);
   io.align();
   io.part(Part::positions);
   io.run(mesh.position, start.vertices, h.vsplits);
   io.align();
   io.part(Part::parent_positions);
-  if (mesh.placement == Placement::free)
+  if (mesh.placement == Placement::optimal)
     io.run(mesh.parent_position, mesh.position.element_bytes(), start.vsplit, h.vsplits);
   io.align();
   io.part(Part::wedges);
@@ -467,11 +467,11 @@ void packet_array_fields(Io& io, const PacketHead& h, M& mesh, const PacketStart
     io.run(a, start.wedges, h.wedges);
     io.align();
   }
-  io.part(Part::carried);
-  io.run(mesh.carried, start.carried, h.carried);
+  io.part(Part::reassigned);
+  io.run(mesh.reassigned, start.reassigned, h.reassigned);
   io.align();
-  io.part(Part::places);
-  io.run(mesh.places, start.place, h.places);
+  io.part(Part::map_offsets);
+  io.run(mesh.map_offsets, start.map_offset, h.map_offsets);
   io.align();
 }
 
@@ -595,4 +595,4 @@ void foreign_fields(Io& io, F& foreign) {
   io.rest(foreign.data);
 }
 
-}  // namespace pstrip::layout
+}  // namespace pstrips::inline formats::layout

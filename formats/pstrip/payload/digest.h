@@ -5,7 +5,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 using Digest = std::array<std::byte, 32>;
 
@@ -16,4 +16,4 @@ using Digest = std::array<std::byte, 32>;
 /// cost  O(size); constant extra memory
 Digest digest(const Mesh& decoded);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

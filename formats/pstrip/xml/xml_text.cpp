@@ -1,9 +1,9 @@
-#include "formats/pstrip/xml_text.h"
+#include "formats/pstrip/xml/xml_text.h"
 
 #include <algorithm>
 #include <array>
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 constexpr char kHexDigits[] = "0123456789abcdef";
@@ -186,4 +186,4 @@ std::optional<Bytes> parse_base64(std::string_view text) {
   return out;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -6,9 +6,9 @@
 
 #include "core/bytes.h"
 #include "core/limits.h"
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/chunks.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 /// What the bytes of a file are spent on.
 enum class Part : std::uint8_t {
@@ -19,19 +19,19 @@ enum class Part : std::uint8_t {
   base_wedges,     ///< wedge lists and attributes of the base wedges
   base_map,        ///< the index map
   parents,         ///< which vertex each vsplit splits
-  counts,          ///< wedges, carried wedges and places of each record
+  counts,          ///< wedges, reassigned wedges and map offsets of each record
   positions,       ///< of the new vertices
   parent_positions,
-  wedges,   ///< attributes of the new wedges
-  carried,  ///< wedges taken over
-  places,   ///< index-map offsets
-  faces,    ///< fACE
-  order,    ///< oRDP
-  digest,   ///< dGST
-  scene,    ///< sCNE, mTRL
-  images,   ///< iMGE
-  foreign,  ///< fRGN
-  unknown,  ///< chunks that this build does not know
+  wedges,       ///< attributes of the new wedges
+  reassigned,   ///< wedges taken over
+  map_offsets,  ///< index-map offsets
+  faces,        ///< fACE
+  order,        ///< oRDP
+  digest,       ///< dGST
+  scene,        ///< sCNE, mTRL
+  images,       ///< iMGE
+  foreign,      ///< fRGN
+  unknown,      ///< chunks that this build does not know
 };
 std::string_view name_of(Part part);
 
@@ -51,4 +51,4 @@ struct PartSpan {
 /// chunks  from read_chunks of the same file
 std::vector<PartSpan> list_parts(const ChunkList& chunks, const Limits& limits = {});
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

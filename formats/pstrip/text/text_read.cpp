@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "formats/pstrip/face_finder.h"
 #include "formats/pstrip/numbers.h"
-#include "formats/pstrip/text.h"
+#include "formats/pstrip/text/face_finder.h"
+#include "formats/pstrip/text/text.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 constexpr std::string_view kHeader = "# pstrips text ";
@@ -368,4 +368,4 @@ bool looks_like_hoppe_pm(ByteView start) {
   return rest.starts_with("PM\nversion=");
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

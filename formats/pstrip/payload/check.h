@@ -3,14 +3,14 @@
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // What every reader of progressive strips checks, so that whoever works on what it returned may
 // follow each index without asking. [spec/model.md, spec/vsplit.md]
 
 /// Where a packet starts in the flat lists of its mesh, and, after the last one, where they end.
 struct PacketStart {
-  std::size_t vsplit = 0, wedge_place = 0, carried = 0, place = 0;
+  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0;
   Index vertices = 0, wedges = 0;  ///< there before the packet
   friend bool operator==(const PacketStart&, const PacketStart&) = default;
 };
@@ -43,4 +43,4 @@ Result<void> check(const ProgressiveStrips& strips);
 /// Faces of the decoded mesh: triangles that nothing replaces and explicit faces.
 Index face_count(const ProgressiveMesh& mesh);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

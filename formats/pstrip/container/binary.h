@@ -10,7 +10,7 @@
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // The binary variant of progressive strips, plain profile. [spec/container.md]
 
@@ -55,7 +55,7 @@ std::uint64_t decoder_memory(std::span<const ProgressiveMesh> meshes, std::uint6
 
 /// Writes a whole file. The same strips give the same bytes.
 ///
-/// Precondition: `strips` is complete and `check(strips)` holds (formats/pstrip/check.h).
+/// Precondition: `strips` is complete and `check(strips)` holds (formats/pstrip/payload/check.h).
 /// errors  over_limit when a chunk would exceed 2^31 - 1 bytes
 /// cost    O(file); one buffer of exactly the file's size
 Result<Bytes> write_binary(const ProgressiveStrips& strips);
@@ -69,8 +69,8 @@ enum class ReadMode : std::uint8_t {
   prefix,  ///< a file that ends early gives what its whole packets brought
 };
 
-/// Reads a file. What it returns satisfies `check` (formats/pstrip/check.h): every index is in
-/// range, so that a decoder may follow it without asking; what a validator must still ask is
+/// Reads a file. What it returns satisfies `check` (formats/pstrip/payload/check.h): every index is
+/// in range, so that a decoder may follow it without asking; what a validator must still ask is
 /// whether the records mean what they say.
 ///
 /// errors  truncated before the end (prefix mode: before the last BASE), corrupt, unsupported
@@ -116,4 +116,4 @@ class BinaryParser {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -2,12 +2,12 @@
 #include <cassert>
 #include <cstring>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/chunks.h"
-#include "formats/pstrip/layout.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/layout.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 using namespace layout;
@@ -140,8 +140,8 @@ void write_chunks(Out& out, const ProgressiveStrips& strips, const FileHeader& h
                             packet.first_vsplit,
                             packet.vsplits,
                             end.wedges - start.wedges,
-                            static_cast<Index>(end.carried - start.carried),
-                            static_cast<Index>(end.place - start.place)};
+                            static_cast<Index>(end.reassigned - start.reassigned),
+                            static_cast<Index>(end.map_offset - start.map_offset)};
       packet_head_fields(io, head);
       packet_array_fields(io, head, mesh, start);
     });
@@ -250,4 +250,4 @@ std::uint8_t conformance_level(const FileHeader& header) {
   return static_cast<std::uint8_t>(std::ranges::find_if(kLevels, admits) - std::begin(kLevels));
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -8,7 +8,7 @@
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // The text variant, `.pm`: the vsplit records of [Skabek11 §3.3] after a base in the manner of
 // OBJ. It carries triangles, positions and one set of texture coordinates. [spec/text.md]
@@ -21,7 +21,7 @@ struct TextFile {
 
 /// Replays all records and writes which triangles each of them adds and changes.
 ///
-/// Precondition: `check(strips)` holds (formats/pstrip/check.h).
+/// Precondition: `check(strips)` holds (formats/pstrip/payload/check.h).
 /// errors  corrupt when a record rewrites an entry that does not show its parent, with the path of
 ///         the vsplit; over_limit when the text would exceed Limits::memory_bytes (a record names
 ///         every face that it changes, so hostile strips can ask for a quadratic amount)
@@ -60,4 +60,4 @@ bool looks_like_text(ByteView start);
 /// file name extension; reads as far as its first line that is no comment.
 bool looks_like_hoppe_pm(ByteView start);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -1,9 +1,9 @@
-#include "formats/pstrip/check.h"
+#include "formats/pstrip/payload/check.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 /// Keeps every sum of array sizes within 64 bits. [spec/model.md M-006]
@@ -85,8 +85,8 @@ Result<void> check_packets(const ProgressiveStrips& strips) {
   for (Index m = 0; m < meshes; ++m) {
     const ProgressiveMesh& mesh = strips.meshes[m];
     const PacketStart& end = reached[m];
-    if (end.vsplit != mesh.vsplits.size() || end.wedge_place != mesh.wedge_places.size() ||
-        end.carried != mesh.carried.size() || end.place != mesh.places.size())
+    if (end.vsplit != mesh.vsplits.size() || end.offset_count != mesh.wedge_offset_counts.size() ||
+        end.reassigned != mesh.reassigned.size() || end.map_offset != mesh.map_offsets.size())
       return corrupt("lists do not end with the last packet", mesh_path(m));
     if (strips.complete && (end.vertices != mesh.vertices || end.wedges != mesh.wedges))
       return corrupt("packets do not bring all vertices and wedges", mesh_path(m));
@@ -97,7 +97,7 @@ Result<void> check_packets(const ProgressiveStrips& strips) {
         std::ranges::any_of(mesh.wedge_attributes,
                             [&](const Attribute& a) { return wrong(a, end.wedges); }))
       return corrupt("attribute has not one element for each vertex or wedge", mesh_path(m));
-    const std::size_t moved = mesh.placement == Placement::free ? end.vsplit : 0;
+    const std::size_t moved = mesh.placement == Placement::optimal ? end.vsplit : 0;
     if (mesh.parent_position.size() != moved * mesh.position.element_bytes())
       return corrupt("not one parent position for each vsplit", mesh_path(m));
   }
@@ -116,10 +116,10 @@ PacketStart packet_after(const ProgressiveMesh& mesh, const PacketStart& start, 
   end.vertices += vsplits;
   for (std::size_t i = start.vsplit; i < end.vsplit; ++i) {
     const Vsplit& v = mesh.vsplits[i];
-    end.wedge_place += v.wedges;
+    end.offset_count += v.wedges;
     end.wedges += v.wedges;
-    end.carried += v.carried;
-    end.place += v.places;
+    end.reassigned += v.reassigned;
+    end.map_offset += v.map_offsets;
   }
   return end;
 }
@@ -180,7 +180,7 @@ Result<void> check_base(const ProgressiveStrips& strips, Index index) {
       return corrupt("symbol in a naive index map", item_path(index, "base_map", i));
   }
   // Records write wedges only, so chains that end in the base end at every level.
-  if (mesh.encoding == MapEncoding::offset_difference)
+  if (mesh.encoding == MapEncoding::offset)
     if (const auto resolved = resolve(mesh.base_map); !resolved)
       return corrupt(resolved.error().message,
                      item_path(index, "base_map", resolved.error().offset));
@@ -191,10 +191,10 @@ Result<void> check_packet(const ProgressiveStrips& strips, Index index, const Pa
                           const PacketStart& end) {
   const ProgressiveMesh& mesh = strips.meshes[index];
   if (end.vertices > mesh.vertices || end.wedges > mesh.wedges ||
-      end.wedges - start.wedges != end.wedge_place - start.wedge_place)
+      end.wedges - start.wedges != end.offset_count - start.offset_count)
     return corrupt("more vertices or wedges than the mesh has", mesh_path(index));
-  if (end.wedge_place > mesh.wedge_places.size() || end.carried > mesh.carried.size() ||
-      end.place > mesh.places.size())
+  if (end.offset_count > mesh.wedge_offset_counts.size() ||
+      end.reassigned > mesh.reassigned.size() || end.map_offset > mesh.map_offsets.size())
     return corrupt("list ends before the records do", mesh_path(index));
   PacketStart at = start;
   for (std::size_t i = start.vsplit; i < end.vsplit; ++i) {
@@ -203,22 +203,28 @@ Result<void> check_packet(const ProgressiveStrips& strips, Index index, const Pa
       return corrupt(message, item_path(index, "vsplits", i));
     };
     if (v.parent > at.vertices) return bad("vsplit names a parent past its own vertex");
-    if (v.parent == at.vertices && v.carried != 0)
+    if (v.parent == at.vertices && v.reassigned != 0)
       return bad("vertex of its own takes over wedges");
-    if (mesh.single_wedges && (v.wedges != 1 || v.carried != 0))
+    if (mesh.single_wedges && (v.wedges != 1 || v.reassigned != 0))
       return bad("single wedges, yet the vsplit has not one wedge");
-    for (std::size_t c = at.carried; c < at.carried + v.carried; ++c)
-      if (mesh.carried[c] >= at.wedges) return bad("carried wedge is past the end");
-    std::uint64_t places = 0;
-    for (std::size_t w = at.wedge_place; w < at.wedge_place + v.wedges; ++w)
-      places += mesh.wedge_places[w];
-    if (places != v.places) return bad("places of the wedges do not add up");
-    for (std::size_t p = at.place; p < at.place + v.places; ++p) {
-      if (mesh.places[p] >= mesh.base_map.size()) return bad("place is past the end of the map");
-      if (mesh.base_map[mesh.places[p]] == kRestart) return bad("place is a restart");
+    for (std::size_t c = at.reassigned; c < at.reassigned + v.reassigned; ++c)
+      if (mesh.reassigned[c] >= at.wedges) return bad("reassigned wedge is past the end");
+    std::uint64_t map_offsets = 0;
+    for (std::size_t w = at.offset_count; w < at.offset_count + v.wedges; ++w)
+      map_offsets += mesh.wedge_offset_counts[w];
+    if (map_offsets != v.map_offsets) return bad("map offsets of the wedges do not add up");
+    for (std::size_t p = at.map_offset; p < at.map_offset + v.map_offsets; ++p) {
+      if (mesh.map_offsets[p] >= mesh.base_map.size())
+        return bad("map offset is past the end of the map");
+      if (mesh.base_map[mesh.map_offsets[p]] == kRestart)
+        return bad("map offset is that of a restart");
     }
-    at = {i + 1,           at.wedge_place + v.wedges, at.carried + v.carried, at.place + v.places,
-          at.vertices + 1, at.wedges + v.wedges};
+    at = {i + 1,
+          at.offset_count + v.wedges,
+          at.reassigned + v.reassigned,
+          at.map_offset + v.map_offsets,
+          at.vertices + 1,
+          at.wedges + v.wedges};
   }
   return {};
 }
@@ -327,4 +333,4 @@ Result<void> check(const ProgressiveStrips& strips) {
   return {};
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

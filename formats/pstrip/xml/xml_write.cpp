@@ -1,10 +1,10 @@
-#include "formats/pstrip/check.h"
 #include "formats/pstrip/numbers.h"
-#include "formats/pstrip/xml.h"
-#include "formats/pstrip/xml_names.h"
-#include "formats/pstrip/xml_text.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/xml/xml.h"
+#include "formats/pstrip/xml/xml_names.h"
+#include "formats/pstrip/xml/xml_text.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 /// Elements with their attributes, one a line, indented by their depth.
@@ -245,28 +245,29 @@ void write_vsplit(XmlWriter& xml, const ProgressiveMesh& mesh, const PacketStart
   xml.begin_attribute("position");
   xml.out().element(mesh.position, mesh.position.element(at.vertices));
   xml.end_attribute();
-  if (mesh.placement == Placement::free) {
+  if (mesh.placement == Placement::optimal) {
     const std::size_t bytes = mesh.position.element_bytes();
     xml.begin_attribute("parent_position");
     xml.out().element(mesh.position,
                       ByteView(mesh.parent_position).subspan(at.vsplit * bytes, bytes));
     xml.end_attribute();
   }
-  const std::span<const Index> places(mesh.places);
+  const std::span<const Index> map_offsets(mesh.map_offsets);
   if (mesh.single_wedges) {
     write_values(xml, mesh, at.wedges);
-    xml.indices("places", places.subspan(at.place, v.places));
+    xml.indices("map_offsets", map_offsets.subspan(at.map_offset, v.map_offsets));
     return xml.end_empty();
   }
-  if (v.carried > 0) xml.indices("carried", std::span(mesh.carried).subspan(at.carried, v.carried));
+  if (v.reassigned > 0)
+    xml.indices("reassigned", std::span(mesh.reassigned).subspan(at.reassigned, v.reassigned));
   if (v.wedges == 0) return xml.end_empty();
   xml.end_start();
-  std::size_t place = at.place;
+  std::size_t place = at.map_offset;
   for (Index w = 0; w < v.wedges; ++w) {
-    const Index count = mesh.wedge_places[at.wedge_place + w];
+    const Index count = mesh.wedge_offset_counts[at.offset_count + w];
     xml.begin("wedge");
     write_values(xml, mesh, at.wedges + w);
-    xml.indices("places", places.subspan(place, count));
+    xml.indices("map_offsets", map_offsets.subspan(place, count));
     xml.end_empty();
     place += count;
   }
@@ -397,4 +398,4 @@ Bytes write_xml(const ProgressiveStrips& strips) {
   return std::move(xml).take();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -1,11 +1,11 @@
-#include "formats/pstrip/chunks.h"
+#include "formats/pstrip/container/chunks.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 constexpr ChunkType kKnown[] = {kHeaderChunk, kSceneChunk,  kMaterialsChunk, kMeshChunk,
@@ -64,4 +64,4 @@ ChunkList read_chunks(ByteView file) {
   return list;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -1,12 +1,12 @@
-#include "formats/pstrip/xml_scan.h"
+#include "formats/pstrip/xml/xml_scan.h"
 
 #include <algorithm>
 #include <charconv>
 #include <vector>
 
-#include "formats/pstrip/xml_text.h"
+#include "formats/pstrip/xml/xml_text.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -266,4 +266,4 @@ std::uint64_t offset_of_line(ByteView document, std::uint64_t line) {
   return at;
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

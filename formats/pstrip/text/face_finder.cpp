@@ -1,8 +1,8 @@
-#include "formats/pstrip/face_finder.h"
+#include "formats/pstrip/text/face_finder.h"
 
 #include <algorithm>
 
-namespace pstrip {
+namespace pstrips::inline formats {
 namespace {
 
 /// The finalizer of splitmix64: every bit of the input reaches every bit of the output. [Steele14]
@@ -76,4 +76,4 @@ void FaceFinder::grow() {
   used_ = old.size();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -2,12 +2,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "formats/pstrip/binary.h"
-#include "formats/pstrip/check.h"
-#include "formats/pstrip/chunks.h"
-#include "formats/pstrip/layout.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/layout.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 using namespace layout;
 
@@ -364,15 +364,15 @@ void BinaryParser::State::reserve(Index index) {
     wedge_bytes += a.element_bytes();
   }
   reserve_within_budget(mesh.vsplits, vsplits);
-  reserve_within_budget(mesh.wedge_places, wedges);
-  const bool moves = mesh.placement == Placement::free;
+  reserve_within_budget(mesh.wedge_offset_counts, wedges);
+  const bool moves = mesh.placement == Placement::optimal;
   if (moves) reserve_within_budget(mesh.parent_position, vsplits * position_bytes);
-  // What is left of the packets is carried wedges, few, and places.
+  // What is left of the packets is reassigned wedges, few, and map offsets.
   const std::uint64_t fixed =
       vsplits * ((mesh.single_wedges ? 1 : 3) * sizeof(Index) + position_bytes * (moves ? 2 : 1)) +
       wedges * wedge_bytes;
   if (packet_array_bytes[index] > fixed)
-    reserve_within_budget(mesh.places, (packet_array_bytes[index] - fixed) / sizeof(Index));
+    reserve_within_budget(mesh.map_offsets, (packet_array_bytes[index] - fixed) / sizeof(Index));
 }
 
 Result<void> BinaryParser::State::read_base(ReadIo& io) {
@@ -420,11 +420,11 @@ void BinaryParser::State::cut_back(Index index) {
   ProgressiveMesh& mesh = strips.meshes[index];
   const PacketStart& to = reached[index];
   mesh.vsplits.resize(to.vsplit);
-  mesh.wedge_places.resize(to.wedge_place);
-  mesh.carried.resize(to.carried);
-  mesh.places.resize(to.place);
+  mesh.wedge_offset_counts.resize(to.offset_count);
+  mesh.reassigned.resize(to.reassigned);
+  mesh.map_offsets.resize(to.map_offset);
   mesh.position.data.resize(to.vertices * mesh.position.element_bytes());
-  if (mesh.placement == Placement::free)
+  if (mesh.placement == Placement::optimal)
     mesh.parent_position.resize(to.vsplit * mesh.position.element_bytes());
   for (Attribute& a : mesh.wedge_attributes) a.data.resize(to.wedges * a.element_bytes());
 }
@@ -446,7 +446,7 @@ Result<void> BinaryParser::State::read_packet(ReadIo& io) {
       head.wedges > mesh.wedges - start.wedges ||
       announced->vertices != start.vertices + head.vsplits)
     return corrupt("PCKT contradicts PIDX or MESH");
-  if (mesh.single_wedges && (head.wedges != head.vsplits || head.carried != 0))
+  if (mesh.single_wedges && (head.wedges != head.vsplits || head.reassigned != 0))
     return corrupt("single wedges, yet the packet has not one wedge a vsplit");
   const std::uint64_t needed = size_of_fields([&](auto& size) {
     packet_head_fields(size, head);
@@ -457,25 +457,25 @@ Result<void> BinaryParser::State::read_packet(ReadIo& io) {
   packet_array_fields(io, head, mesh, start);
   Result<void> ok = finish(io);
   if (ok) {
-    std::uint64_t wedges = 0, carried = 0;
-    std::size_t wedge = start.wedge_place;
+    std::uint64_t wedges = 0, reassigned = 0;
+    std::size_t wedge = start.offset_count;
     for (std::size_t i = start.vsplit; i < mesh.vsplits.size(); ++i) {
       Vsplit& v = mesh.vsplits[i];
       if (mesh.single_wedges) v.wedges = 1;
       wedges += v.wedges;
-      carried += v.carried;
+      reassigned += v.reassigned;
       if (wedges > head.wedges) break;
-      std::uint64_t places = 0;
+      std::uint64_t map_offsets = 0;
       for (const std::size_t end = wedge + v.wedges; wedge < end; ++wedge)
-        places += mesh.wedge_places[wedge];
-      v.places = static_cast<Index>(std::min<std::uint64_t>(places, kNone));
+        map_offsets += mesh.wedge_offset_counts[wedge];
+      v.map_offsets = static_cast<Index>(std::min<std::uint64_t>(map_offsets, kNone));
     }
-    if (wedges != head.wedges || carried != head.carried)
+    if (wedges != head.wedges || reassigned != head.reassigned)
       ok = corrupt("records do not add up to the packet's counts");
   }
   if (ok) {
     const PacketStart end = packet_after(mesh, start, head.vsplits);
-    if (end.place - start.place != head.places)
+    if (end.map_offset - start.map_offset != head.map_offsets)
       ok = corrupt("records do not add up to the packet's counts");
     else
       ok = check_packet(strips, head.mesh, start, end);
@@ -659,4 +659,4 @@ Result<ProgressiveStrips> read_binary(ByteView file, const Limits& limits, ReadM
   return std::move(parser).take();
 }
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

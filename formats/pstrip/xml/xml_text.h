@@ -7,7 +7,7 @@
 #include "core/bytes.h"
 #include "formats/pstrip/numbers.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // Strings and binary data inside XML. [spec/xml.md §4]
 
@@ -37,4 +37,4 @@ void write_base64(TextWriter& out, ByteView bytes);
 /// White space is skipped. Nothing when it is not what write_base64 could have written otherwise.
 std::optional<Bytes> parse_base64(std::string_view text);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

@@ -11,14 +11,14 @@
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
-namespace pstrip {
+namespace pstrips::inline formats {
 
 // The XML variant of progressive strips, `.pstripx`: the information of the binary variant, for
 // people to read and for other tools to make. [spec/xml.md]
 
 /// In which line of the document each part of the model stands.
 struct XmlLocations {
-  /// Lines by the path that errors of `check` (formats/pstrip/check.h) have: "/packets/5",
+  /// Lines by the path that errors of `check` (formats/pstrip/payload/check.h) have: "/packets/5",
   /// "/scene/nodes/2", "/meshes/0/faces", "/foreign/1", "/unknown/0" … Lines count from 1.
   std::map<std::string, std::uint32_t, std::less<>> elements;
   std::vector<std::vector<std::uint32_t>> vsplits;  ///< per mesh, one a vsplit
@@ -31,11 +31,11 @@ struct XmlLocations {
 /// Writes a whole document. The same strips give the same bytes, and read_xml gives the same
 /// strips, bit for bit.
 ///
-/// Precondition: `check(strips)` holds (formats/pstrip/check.h).
+/// Precondition: `check(strips)` holds (formats/pstrip/payload/check.h).
 /// cost  O(size); about 80 bytes a vertex of a mesh without wedge attributes
 Bytes write_xml(const ProgressiveStrips& strips);
 
-/// Reads a document; what it returns satisfies `check` (formats/pstrip/check.h).
+/// Reads a document; what it returns satisfies `check` (formats/pstrip/payload/check.h).
 ///
 /// locations  when not null, filled with the line of each part
 /// errors     truncated, corrupt, over_limit, unsupported; the path is the line, then the element
@@ -55,4 +55,4 @@ Result<ProgressiveStrips> read_xml_unchecked(ByteView document, const Limits& li
 /// order mark, then '<'.
 bool looks_like_xml(ByteView start);
 
-}  // namespace pstrip
+}  // namespace pstrips::inline formats

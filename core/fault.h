@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+
+namespace pstrips::inline core {
+
+/// Which demand of the specification a file breaks, or why else it is not taken. Each stands for
+/// one rule of validators/rules.cpp; an error that carries one is that rule's.
+enum class Fault : std::uint8_t {
+  none,
+  // The answer is not "corrupt".
+  truncated,
+  over_limit,
+  too_much_work,
+  version_unknown,
+  profile_unknown,
+  flags_unknown,
+  critical_chunk_unknown,
+  digest_unknown,
+  // Frame.
+  signature,
+  type_not_letters,
+  type_third_letter,
+  chunk_length,
+  chunk_padding,
+  chunk_crc,
+  first_chunk,
+  chunk_order,
+  chunk_twice,
+  mesh_chunks,
+  base_chunks,
+  packet_chunks,
+  index_missing,
+  tail_order,
+  bytes_after_end,
+  end_payload,
+  past_file_bytes,
+  // Payloads.
+  string_not_utf8,
+  payload_length,
+  reserved_not_zero,
+  array_padding,
+  value_undefined,
+  type_undefined,
+  no_components,
+  base_mesh,
+  base_counts,
+  packet_mesh,
+  packet_wedges,
+  packet_offsets,
+  packet_single_wedges,
+  faces_mesh,
+  faces_empty,
+  face_elements,
+  order_mesh,
+  order_rotation_bits,
+  packed_padding,
+  digest_mesh,
+  image_data,
+  packet_not_next,
+  // XML.
+  xml_malformed,
+  xml_declaration,
+  xml_schema,
+  xml_unsupported,
+  xml_bases,
+  xml_packet_vsplits,
+  xml_list_length,
+  xml_vsplit_form,
+  xml_twice,
+  xml_chunk_type,
+  xml_number,
+  xml_backslash,
+  xml_base64,
+  // Records.
+  parent_not_there,
+  isolated_vertex_reassigns,
+  isolated_vertex_writes,
+  new_vertex_without_wedge,
+  parent_without_wedge,
+  reassigned_not_there,
+  reassigned_not_of_parent,
+  offset_past_end,
+  offset_is_restart,
+  offsets_not_ascending,
+  offset_twice,
+  offset_not_of_parent,
+  isolated_vertex_moves,
+};
+
+}  // namespace pstrips::inline core
