@@ -49,7 +49,7 @@ struct Attribute {
   friend bool operator==(const Attribute&, const Attribute&) = default;
 };
 
-/// Component c of element i as a number; normalized integers are scaled as in glTF 2.0 §3.6.2.2.
+/// Component c of element i as a number; normalized integers are scaled. [glTF §3.6.2.2]
 double component(const Attribute& attribute, std::size_t i, std::size_t c);
 
 /// Makes a number component c of element i: the nearest that the type has, ties to even, NaN as 0

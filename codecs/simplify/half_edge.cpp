@@ -1,6 +1,6 @@
 // Quadric-ordered half-edge collapses on any triangle complex.
 //
-// [Garland97] the quadric error metric, [Hoppe99] its wedge attributes, [Kim04 §5] its use as the
+// [Garland97] the quadric error metric, [Hoppe99b] its wedge attributes, [Kim04 §5] its use as the
 // order of strip-edge collapses; [Lindstrom98] the metric without a history.
 #include "codecs/simplify/half_edge.h"
 

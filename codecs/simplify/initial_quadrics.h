@@ -7,7 +7,7 @@
 namespace pstrips::inline codecs {
 
 /// What counts in the error quadrics besides the planes of faces: planes that hold borders, seams
-/// and folds in place, and attributes. [Garland97 §6; Hoppe99 §3]
+/// and folds in place, and attributes. [Garland97 §6; Hoppe99b §3]
 class QuadricBuilder {
  public:
   /// All arguments must outlive the builder; `wedges` may be null.

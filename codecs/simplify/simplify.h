@@ -107,7 +107,7 @@ struct CollapseSequence {
 /// returns   the whole sequence; the same for the same input, whatever the number of threads
 /// cost      O(n) but for sorting; about 1 µs a collapse (subset; twice that with attributes) to
 ///           3 µs (free, memoryless); 200 to 300 bytes a triangle at work
-/// source    [Garland97 §3-5; Lindstrom98 §3; Lindstrom99; Hoppe99 §3 attribute quadrics;
+/// source    [Garland97 §3-5; Lindstrom98 §3; Lindstrom99; Hoppe99b §3 attribute quadrics;
 ///           Kim04 §5; Skabek11 §2.3]. Differs: quadrics are relative to their vertex, hence exact
 ///           enough in single precision; collapses are ordered in steps of about 5 % of their cost,
 ///           by what a vertex cost when it was last looked at, which is checked when it comes up;

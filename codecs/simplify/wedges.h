@@ -14,7 +14,7 @@ namespace pstrips::inline codecs {
 /// Attribute k over a triangle is a linear function g·x + d. The sum over a wedge's triangles of
 /// area · (g·x + d - a)², with x relative to its vertex and a to its own value, splits in a part in
 /// x alone, which the vertex's quadric takes up, and  -2a (G·x + D) + a²W,  which stays here.
-/// [Hoppe99 §3]
+/// [Hoppe99b §3]
 class WedgeTable {
  public:
   /// `input` must outlive it. Cost O(wedges and triangles).

@@ -15,7 +15,7 @@ namespace pstrips::inline codecs {
 /// and 1.409 indices a triangle. What is left over far from the cache is covered last.
 ///
 /// cost    O(n), about 100 trial steps a triangle; the same input gives the same strips
-/// source  ours. Strips whose lengths are found by simulating the cache are due to [Hoppe99]. That
+/// source  ours. Strips whose lengths are found by simulating the cache are due to [Hoppe99a]. That
 ///         a row keeps to the strip beside it pays: with turns that alternate, all else equal, 0.71
 ///         loads and 1.49 indices on bunny. An order for caches of every size [Bogomjakov01] has
 ///         0.74 loads on bunny, 0.73 on cow [Vanecek05 table 8.6]; ours 0.634 and 0.657.

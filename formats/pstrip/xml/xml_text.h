@@ -32,7 +32,7 @@ bool fits_content(ByteView bytes);
 /// Appends element content. Precondition: fits_content(bytes).
 void write_content(TextWriter& out, ByteView bytes);
 
-/// RFC 4648 §4 with padding, in lines of 76 characters.
+/// Base64 [RFC4648 §4] with padding, in lines of 76 characters.
 void write_base64(TextWriter& out, ByteView bytes);
 /// White space is skipped. Nothing when it is not what write_base64 could have written otherwise.
 std::optional<Bytes> parse_base64(std::string_view text);
