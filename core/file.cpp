@@ -225,6 +225,19 @@ Result<void> write_files(const std::vector<OutputFile>& files) {
   return {};
 }
 
+Result<void> check_writable(const std::filesystem::path& path) {
+  struct stat info {};
+  if (path == "-") return {};
+  if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) {
+    if (S_ISDIR(info.st_mode)) return fail(ErrorCode::io, "is a folder", kNoOffset, path.string());
+    if (::access(path.c_str(), W_OK) != 0) return io_error(path, "cannot open");
+    return {};
+  }
+  if (const auto temporary = TemporaryFile::create(path); !temporary)
+    return tl::unexpected(temporary.error());
+  return {};
+}
+
 void remove_temporary_files() noexcept {
   for (std::size_t slot = 0; slot < kMaxNamed; ++slot)
     if (temporary_used[slot]) ::unlink(temporary_names[slot].data());

@@ -56,6 +56,12 @@ struct OutputFile {
 /// errors  io with the path and the system's words
 Result<void> write_files(const std::vector<OutputFile>& files);
 
+/// Whether write_files() could write there now, found out before the work that makes the bytes: the
+/// folder exists and takes files, and the path is no folder. Leaves nothing behind.
+///
+/// errors  io with the path and the system's words
+Result<void> check_writable(const std::filesystem::path& path);
+
 /// Removes the temporary files of a write_files() under way; safe to call from a signal handler.
 void remove_temporary_files() noexcept;
 

@@ -24,7 +24,8 @@ class Files : public ::testing::Test {
 };
 
 TEST_F(Files, ComeBackAsWritten) {
-  for (const std::string text : {"", "abc", "\0\n\r"}) {
+  using namespace std::string_literals;
+  for (const std::string& text : {""s, "abc"s, "\0\n\r\r\n\0"s}) {
     ASSERT_TRUE(write_files({{dir_ / "a", as_bytes(text)}}));
     EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), text);
   }
@@ -61,6 +62,21 @@ TEST_F(Files, CanBeForgottenAndReadAgain) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{5000}, text.size(), text.size() * 100})
     file->forget(size);
   EXPECT_EQ(as_text(file->view()), text);
+}
+
+TEST_F(Files, AreKnownToBeWritableBeforehand) {
+  ASSERT_TRUE(write_files({{dir_ / "a", as_bytes("old")}}));
+  for (const std::filesystem::path& path :
+       {dir_ / "a", dir_ / "new", std::filesystem::path("-"), std::filesystem::path("/dev/null")})
+    EXPECT_TRUE(check_writable(path)) << path;
+  for (const auto& path : {dir_, dir_ / "no" / "b", dir_ / "a" / "b"}) {
+    const auto answer = check_writable(path);
+    ASSERT_FALSE(answer) << path;
+    EXPECT_EQ(answer.error().code, ErrorCode::io);
+    EXPECT_EQ(answer.error().path, path.string());
+  }
+  EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), "old");
+  EXPECT_EQ(count(), 1u);
 }
 
 TEST_F(Files, SayWhyTheyCannotBeRead) {
