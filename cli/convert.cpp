@@ -27,7 +27,7 @@ void report(const Streams& io, const Options& options, const LoadedFile& input,
   note(io, options.output, saved.notes);
   if (io.quiet || options.output == "-") return;
   io.err << fmt::format("{} ({}) -> {} ({})\n", escaped(options.input), byte_size(input.bytes),
-                        escaped(options.output), byte_size(saved.bytes));
+                        escaped(options.output), byte_size(saved.bytes()));
 }
 
 std::string guards_of(const GuardCounts& counts) {

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "converters/decode.h"
 #include "converters/encode.h"
+#include "converters/file_formats.h"
 #include "core/file.h"
 #include "core/limits.h"
 #include "core/progressive_strips.h"
@@ -16,20 +15,6 @@
 #include "core/tetra.h"
 
 namespace pstrips::inline converters {
-
-enum class FileFormat : std::uint8_t { ply, obj, gltf, glb, xyz, pstrip, pstripx, pm };
-
-/// "ply" … as file extensions without the dot.
-std::string_view name_of(FileFormat format);
-std::optional<FileFormat> format_named(std::string_view name);
-constexpr bool is_progressive(FileFormat format) { return format >= FileFormat::pstrip; }
-
-/// By the first bytes; OBJ, which has no signature, is what the extension says or what is left.
-/// Nothing for bytes that are none of ours and whose extension is not ".obj".
-std::optional<FileFormat> detect_format(ByteView bytes, std::string_view path);
-
-/// By the extension, any case.
-std::optional<FileFormat> format_of_path(std::string_view path);
 
 /// A file as read, before any conversion. A Skabek-Pojda text becomes progressive strips on the
 /// way (`text_options` says how it is stripified).
@@ -47,15 +32,16 @@ struct LoadedFile {
 
 struct LoadOptions {
   Limits limits;
-  bool allow_prefix =
-      false;  ///< a binary progressive file that ends early is read as far as it goes
+  /// A binary progressive file that ends early is read as far as it goes.
+  bool allow_prefix = false;
   EncodeOptions text_options;  ///< for FileFormat::pm
 };
 
 /// Reads a model or progressive file; "-" is standard input. Companions (buffers, material
 /// libraries) are looked for beside the file and nowhere else.
 ///
-/// errors  io, truncated, corrupt, over_limit, unsupported; unsupported also when no format fits
+/// errors  io, truncated, corrupt, over_limit, unsupported; unsupported also when no format fits,
+///         with the list of those that would
 Result<LoadedFile> load(const std::string& path, const LoadOptions& options = {});
 /// The same for a file that was opened already; the path says where its companions are.
 Result<LoadedFile> load(const FileBytes& file, const std::string& path,
@@ -66,23 +52,39 @@ Result<TetraMesh> load_tetra_mesh(const FileBytes& file, const Limits& limits = 
 bool holds_tetra_mesh(const FileBytes& file, const std::string& path);
 
 struct SaveOptions {
-  bool ascii = false;    ///< PLY: text instead of little-endian binary
-  bool strips = false;   ///< glTF: one primitive a strip instead of triangle lists
-  unsigned threads = 0;  ///< see thread_count(); the bytes are the same
+  bool ascii = false;          ///< PLY: text instead of little-endian binary
+  bool strips = false;         ///< glTF: one primitive a strip instead of triangle lists
+  bool joined_strips = false;  ///< glTF: one strip a group, its parts joined by repeated indices
+  unsigned threads = 0;        ///< see thread_count(); the bytes are the same
+  /// Whether files beside the output, which the caller did not name, may be replaced by others.
+  bool replace_companions = true;
+};
+
+struct SavedFile {
+  std::string path;
+  std::uint64_t bytes = 0;
 };
 
 /// What became of a save.
 struct SavedFiles {
-  std::vector<std::string> paths;
-  std::uint64_t bytes = 0;         ///< of all files
+  std::vector<SavedFile> files;    ///< all that were written, the named one first
   std::vector<std::string> notes;  ///< what the target format cannot hold
+
+  std::uint64_t bytes() const;  ///< of all files
 };
 
-/// Writes a model as ply, obj, gltf or glb; companions go beside it. All files or none.
+/// The files that save() may write: the path itself first, then its companions, which are written
+/// when the model needs them. Standard output has no companions.
+std::vector<std::string> output_paths(const std::string& path, FileFormat format);
+
+/// Writes a model in a format that holds one; companions go beside it. All files or none.
+///
+/// errors  io, also for a companion that would replace another file against the options, with its
+///         path; bad_argument for a format that is not written; those of the format's writer
 Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat format,
                         const SaveOptions& options = {});
 
-/// Writes progressive strips as pstrip, pstripx or pm.
+/// Writes progressive strips in a progressive format.
 Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path,
                         FileFormat format);
 

@@ -32,6 +32,10 @@ enum ObjPresent : std::uint8_t {
   kHasAlpha = 64,
 };
 
+/// Whether the first line that is neither empty nor a comment begins with a word of OBJ, in text
+/// without zeros. cost  O(comments)
+bool looks_like_obj(ByteView file);
+
 /// Reads a model as one mesh.
 ///
 /// vertices   the `v` lines in order, never welded; forward references are fine

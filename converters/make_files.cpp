@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "converters/file_io.h"
+#include "converters/merge.h"
+#include "formats/gltf/gltf.h"
+#include "formats/obj/obj.h"
+#include "formats/ply/ply.h"
+#include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/text/text.h"
+#include "formats/pstrip/xml/xml.h"
+
+namespace pstrips::inline converters {
+namespace {
+
+// What companions of an output are called. A name that a reader would take for a scheme, a folder
+// or the end of a line gets underscores.
+std::string companion_stem(const std::string& path) {
+  std::string stem = std::filesystem::path(path).stem().string();
+  std::ranges::replace_if(
+      stem, [](unsigned char c) { return c < 0x20 || c == 0x7f || c == ':' || c == '\\'; }, '_');
+  if (stem.starts_with(' ')) stem.front() = '_';
+  return stem;
+}
+
+FileSet one_file(const OutputName& name, Bytes bytes, std::vector<std::string> notes = {}) {
+  FileSet out;
+  out.files.push_back({name.path, std::move(bytes)});
+  out.notes = std::move(notes);
+  return out;
+}
+
+std::string beside(const std::string& path, const std::string& name) {
+  return (std::filesystem::path(path).parent_path() / name).string();
+}
+
+GltfTopology topology_of(const SaveOptions& options) {
+  if (options.joined_strips) return GltfTopology::joined_strips;
+  return options.strips ? GltfTopology::strips : GltfTopology::triangles;
+}
+
+// What write_ply has no words for.
+void note_ply_losses(const Scene& scene, std::vector<std::string>& notes) {
+  Material only_texture;  // as read_ply makes one from a texture's name
+  only_texture.metallic = 0;
+  const auto is_lost = [&](const Material& material) {
+    only_texture.base_color_image = material.base_color_image;
+    return material != only_texture;
+  };
+  const auto is_embedded = [](const Image& image) { return !image.data.empty(); };
+  const auto is_moved = [](const Node& node) {
+    return !node.meshes.empty() && node.matrix != Node{}.matrix;
+  };
+  if (std::ranges::any_of(scene.materials, is_lost))
+    notes.emplace_back("materials beyond a texture's name");
+  if (std::ranges::any_of(scene.images, is_embedded)) notes.emplace_back("embedded images");
+  if (std::ranges::any_of(scene.nodes, is_moved)) notes.emplace_back("node transforms");
+}
+
+Result<FileSet> make_any_gltf(const Model& model, const OutputName& name, bool binary,
+                              const SaveOptions& options) {
+  auto written = write_gltf(model, {.binary = binary,
+                                    .topology = topology_of(options),
+                                    .embed = name.path == "-",
+                                    .buffer_name = name.companion});
+  if (!written) return tl::unexpected(written.error());
+  FileSet out = one_file(name, std::move(written->main), std::move(written->dropped));
+  for (auto& [other, bytes] : written->others)
+    out.files.push_back({beside(name.path, other), std::move(bytes)});
+  return out;
+}
+
+}  // namespace
+
+OutputName output_name(const std::string& path, FileFormat format) {
+  const std::string_view extension = row_of(format).companion;
+  if (path == "-" || extension.empty()) return {path, {}};
+  return {path, companion_stem(path).append(extension)};
+}
+
+std::vector<std::string> output_paths(const std::string& path, FileFormat format) {
+  const OutputName name = output_name(path, format);
+  if (name.companion.empty()) return {path};
+  return {path, beside(path, name.companion)};
+}
+
+Result<FileSet> make_ply(const Model& model, const OutputName& name, const SaveOptions& options) {
+  std::vector<std::string> notes;
+  const bool several = model.meshes.size() > 1;
+  const Model one = several ? merge_meshes(model, notes) : Model{};
+  note_ply_losses(model.scene, notes);
+  auto bytes = write_ply(several ? one : model,
+                         {.format = options.ascii ? PlyWriteOptions::Format::ascii
+                                                  : PlyWriteOptions::Format::little_endian,
+                          .threads = options.threads});
+  if (!bytes) return tl::unexpected(bytes.error());
+  return one_file(name, std::move(bytes).value(), std::move(notes));
+}
+
+Result<FileSet> make_obj(const Model& model, const OutputName& name, const SaveOptions& options) {
+  auto written = write_obj(model, name.companion, options.threads);
+  if (!written) return tl::unexpected(written.error());
+  FileSet out = one_file(name, std::move(written->obj), std::move(written->dropped));
+  if (!written->mtl.empty())
+    out.files.push_back({beside(name.path, written->mtl_name), std::move(written->mtl)});
+  return out;
+}
+
+Result<FileSet> make_gltf(const Model& model, const OutputName& name, const SaveOptions& options) {
+  return make_any_gltf(model, name, false, options);
+}
+
+Result<FileSet> make_glb(const Model& model, const OutputName& name, const SaveOptions& options) {
+  return make_any_gltf(model, name, true, options);
+}
+
+Result<FileSet> make_pstrip(const ProgressiveStrips& strips, const OutputName& name) {
+  auto bytes = write_binary(strips);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return one_file(name, std::move(bytes).value());
+}
+
+Result<FileSet> make_pstripx(const ProgressiveStrips& strips, const OutputName& name) {
+  return one_file(name, write_xml(strips));
+}
+
+Result<FileSet> make_pm(const ProgressiveStrips& strips, const OutputName& name) {
+  auto text = write_text(strips);
+  if (!text) return tl::unexpected(text.error());
+  return one_file(name, std::move(text->bytes), std::move(text->dropped));
+}
+
+}  // namespace pstrips::inline converters
