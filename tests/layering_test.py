@@ -36,6 +36,14 @@ IN_HEADERS = {("core/result.h", "tl/")}
 
 SYSTEM = {"fcntl.h", "malloc.h", "unistd.h", "sys/mman.h", "sys/stat.h"}
 
+# An error's words and place are for people; what a program decides by is its code and its fault.
+_ERROR = r"\berror(?:\(\))?(?:\.|->)"
+DECIDES_BY_WORDS = re.compile(
+    rf"{_ERROR}(?:message|path)\.(?:find|starts_with|ends_with|contains|compare|substr)\b"
+    rf"|{_ERROR}message\s*[!=]=|[!=]=\s*\w*{_ERROR}message\b"
+    rf"|\b(?:find|count|lower_bound|search|contains)\([^;]*{_ERROR}(?:message|path)\b"
+)
+
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 
 
@@ -78,6 +86,19 @@ class Layering(unittest.TestCase):
                 self.assertTrue(file.endswith(".cpp"), "a header of ours")
                 folder = file.rsplit("/", 1)[0]
                 self.assertIn(folder, THIRD_PARTY.get(library, ()))
+
+    def test_nothing_depends_on_the_words_of_an_error(self):
+        for old in (
+            'if (error.message == "malformed XML") return',
+            'error.path.ends_with("/@type") ? a : b',
+            "std::ranges::find(kPhrases, error.message, &Phrase::message);",
+            "read.error().message.starts_with(word)",
+        ):
+            self.assertRegex(old, DECIDES_BY_WORDS)
+        for folder in MAY_INCLUDE:
+            for path in sorted((SOURCE / folder).rglob("*.cpp")) + sorted((SOURCE / folder).rglob("*.h")):
+                with self.subTest(file=path.relative_to(SOURCE).as_posix()):
+                    self.assertIsNone(DECIDES_BY_WORDS.search(path.read_text()))
 
 
 if __name__ == "__main__":

@@ -7,64 +7,6 @@
 namespace pstrips::inline validators {
 namespace {
 
-/// The reader's fixed phrases and the rules that they belong to.
-struct Phrase {
-  std::string_view message;
-  Fault fault;
-};
-constexpr Phrase kPhrases[] = {
-    {"document type declarations are not allowed", Fault::xml_declaration},
-    {"processing instructions are not allowed", Fault::xml_declaration},
-    {"not one base for each mesh", Fault::xml_bases},
-    {"bases are not in the order of the meshes", Fault::xml_bases},
-    {"not as many vsplits as announced", Fault::xml_packet_vsplits},
-    {"fewer numbers than announced", Fault::xml_list_length},
-    {"more numbers than announced", Fault::xml_list_length},
-    {"stands twice for a mesh", Fault::xml_twice},
-    {"stands twice for an image", Fault::xml_twice},
-    {"element without content", Fault::xml_twice},
-    {"not a chunk type", Fault::xml_chunk_type},
-    {"chunk type that has elements of its own", Fault::xml_chunk_type},
-    {"not a number in range", Fault::xml_number},
-    {"number is missing, malformed or out of range", Fault::xml_number},
-    {"backslash that escapes nothing", Fault::xml_backslash},
-    {"malformed base64", Fault::xml_base64},
-    {"not between 1 and 255", Fault::no_components},
-    {"index-map entry is neither a wedge nor a marker", Fault::xml_number},
-    {"packet names a mesh past the end", Fault::packet_mesh},
-    {"names an image past the end", Fault::image_data},
-    {"more triangles replaced than there are", Fault::xml_list_length},
-};
-
-Fault corrupt_fault(const Error& error, bool well_formed) {
-  const auto inside = [&](std::string_view element) {
-    return error.path.find(element) != std::string::npos;
-  };
-  const auto* const phrase = std::ranges::find(kPhrases, error.message, &Phrase::message);
-  if (phrase != std::end(kPhrases)) return phrase->fault;
-  if (!well_formed || error.message == "malformed XML") return Fault::xml_malformed;
-  if (error.message == "word is none of those defined")
-    return error.path.ends_with("/@type") ? Fault::type_undefined : Fault::value_undefined;
-  if (error.message == "names a mesh past the end") {
-    if (inside("/faces[")) return Fault::faces_mesh;
-    return inside("/order[") ? Fault::order_mesh : Fault::digest_mesh;
-  }
-  return inside("/vsplit[") ? Fault::xml_vsplit_form : Fault::xml_schema;
-}
-
-/// Which rule an answer of the reader belongs to.
-Fault fault_of(const Error& error, ByteView file, const Limits& limits) {
-  if (error.code == ErrorCode::truncated) return Fault::truncated;
-  if (error.code == ErrorCode::over_limit) return Fault::over_limit;
-  if (error.code != ErrorCode::unsupported)
-    return corrupt_fault(error, scan_xml(file, limits).has_value());
-  if (error.path.ends_with("/@version")) return Fault::version_unknown;
-  if (error.path.ends_with("/@profile")) return Fault::profile_unknown;
-  if (error.path.ends_with("/@algorithm")) return Fault::digest_unknown;
-  if (error.path.ends_with("/@type")) return Fault::critical_chunk_unknown;
-  return Fault::xml_unsupported;
-}
-
 /// The path of the model that xml.h knows lines by.
 std::string model_path(const Document& doc, const Where& where) {
   const std::string element = std::to_string(where.element);
@@ -163,8 +105,7 @@ Document open_xml(ByteView file, const Limits& limits) {
     const Error& error = strips.error();
     doc.stopped_at = error.path;
     const std::uint64_t offset = std::min<std::uint64_t>(error.offset, file.size());
-    doc.faults.add(fault_of(error, file, limits), {.field = Field::file, .element = offset},
-                   error.message);
+    doc.faults.add(error.fault, {.field = Field::file, .element = offset}, error.message);
     return doc;
   }
   doc.strips = std::move(*strips);

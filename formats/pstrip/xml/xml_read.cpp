@@ -8,6 +8,7 @@
 #include "formats/pstrip/numbers.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/xml/xml.h"
+#include "formats/pstrip/xml/xml_fault.h"
 #include "formats/pstrip/xml/xml_names.h"
 #include "formats/pstrip/xml/xml_scan.h"
 #include "formats/pstrip/xml/xml_text.h"
@@ -35,13 +36,16 @@ class Context {
  public:
   Context(ByteView document, const Limits& limits) : document_(document), limits_(limits) {}
 
-  void fail(const XMLElement& at, std::string_view message, std::string_view attribute = {},
-            ErrorCode code = ErrorCode::corrupt) {
+  /// fault  xml_schema when only the shape of the document is wrong
+  void fail(const XMLElement& at, Fault fault, std::string_view message,
+            std::string_view attribute = {}) {
     if (error_) return;
     const auto line = static_cast<std::uint64_t>(at.GetLineNum());
     std::string path = "line " + std::to_string(line) + ", " + path_of(at);
     if (!attribute.empty()) path.append("/@").append(attribute);
-    error_ = Error{code, std::string(message), offset_of_line(document_, line), std::move(path)};
+    if (fault == Fault::xml_schema) fault = schema_fault_;
+    error_ = Error{code_of(fault), std::string(message), offset_of_line(document_, line),
+                   std::move(path), fault};
   }
   bool ok() const { return !error_; }
   const std::optional<Error>& error() const { return error_; }
@@ -49,13 +53,18 @@ class Context {
 
   /// An element or attribute that no version 1.0 file has.
   void fail_unknown(const XMLElement& at, const char* message) {
-    fail(at, message, {}, newer_version ? ErrorCode::unsupported : ErrorCode::corrupt);
+    fail(at, newer_version ? Fault::xml_unsupported : Fault::xml_schema, message);
+  }
+  /// The shape of a vsplit is a demand of its own. [spec/xml.md X-013]
+  void set_in_vsplit(bool inside) {
+    schema_fault_ = inside ? Fault::xml_vsplit_form : Fault::xml_schema;
   }
   bool newer_version = false;
 
  private:
   ByteView document_;
   const Limits& limits_;
+  Fault schema_fault_ = Fault::xml_schema;
   std::optional<Error> error_;
 };
 
@@ -76,7 +85,8 @@ class Children {
   const XMLElement* take(std::string_view name) {
     const XMLElement* taken = take_if(name);
     if (taken == nullptr)
-      in_.fail(next_ ? *next_ : parent_, "required element is missing before or in here");
+      in_.fail(next_ ? *next_ : parent_, Fault::xml_schema,
+               "required element is missing before or in here");
     return taken;
   }
   void finish() {
@@ -87,7 +97,8 @@ class Children {
   const XMLElement* element_from(const XMLNode* node) {
     for (; node != nullptr; node = node->NextSibling()) {
       if (const XMLElement* element = node->ToElement()) return element;
-      if (node->ToText() != nullptr) in_.fail(parent_, "text where only elements may be");
+      if (node->ToText() != nullptr)
+        in_.fail(parent_, Fault::xml_schema, "text where only elements may be");
     }
     return nullptr;
   }
@@ -106,7 +117,7 @@ class Attributes {
   std::string_view raw(const char* name) {
     const tinyxml2::XMLAttribute* found = element_.FindAttribute(name);
     if (found == nullptr) {
-      in_.fail(element_, "required attribute is missing", name);
+      in_.fail(element_, Fault::xml_schema, "required attribute is missing", name);
       return {};
     }
     ++taken_;
@@ -115,16 +126,17 @@ class Attributes {
   std::string string(const char* name) {
     const std::string_view text = raw(name);
     if (text.size() > in_.limits().string_bytes)
-      in_.fail(element_, "string longer than the limit", name, ErrorCode::over_limit);
+      in_.fail(element_, Fault::over_limit, "string longer than the limit", name);
     std::optional<std::string> value = in_.ok() ? unescape(text) : std::nullopt;
-    if (!value) in_.fail(element_, "backslash that escapes nothing", name);
+    if (!value) in_.fail(element_, Fault::xml_backslash, "backslash that escapes nothing", name);
     return value.value_or("");
   }
   template <class T>
   T number(const char* name) {
     T value{};
     const std::string_view text = raw(name);
-    if (in_.ok() && !parse_number(text, value)) in_.fail(element_, "not a number in range", name);
+    if (in_.ok() && !parse_number(text, value))
+      in_.fail(element_, Fault::xml_number, "not a number in range", name);
     return value;
   }
   Index index(const char* name) { return number<Index>(name); }
@@ -132,7 +144,7 @@ class Attributes {
   bool flag(const char* name) {
     const std::string_view text = raw(name);
     if (in_.ok() && text != "true" && text != "false" && text != "1" && text != "0")
-      in_.fail(element_, "neither true nor false", name);
+      in_.fail(element_, Fault::xml_schema, "neither true nor false", name);
     return text == "true" || text == "1";
   }
   bool flag_or(const char* name, bool value) { return has(name) ? flag(name) : value; }
@@ -140,14 +152,15 @@ class Attributes {
   E choice(const char* name, std::span<const std::string_view> words) {
     const std::string_view text = raw(name);
     const auto found = std::ranges::find(words, text);
-    if (in_.ok() && found == words.end()) in_.fail(element_, "word is none of those defined", name);
+    if (in_.ok() && found == words.end())
+      in_.fail(element_, Fault::value_undefined, "word is none of those defined", name);
     return static_cast<E>(found == words.end() ? 0 : found - words.begin());
   }
   ComponentType component_type(const char* name) {
     const std::string_view text = raw(name);
     for (int i = 0; i <= static_cast<int>(ComponentType::f64); ++i)
       if (name_of(static_cast<ComponentType>(i)) == text) return static_cast<ComponentType>(i);
-    in_.fail(element_, "word is none of those defined", name);
+    in_.fail(element_, Fault::type_undefined, "word is none of those defined", name);
     return ComponentType::f32;
   }
   template <std::size_t N>
@@ -155,15 +168,17 @@ class Attributes {
     Tokens tokens(raw(name));
     for (double& value : values)
       if (in_.ok() && !parse_number(tokens.next(), value))
-        in_.fail(element_, "number is missing, malformed or out of range", name);
-    if (in_.ok() && !tokens.at_end()) in_.fail(element_, "more numbers than announced", name);
+        in_.fail(element_, Fault::xml_number, "number is missing, malformed or out of range", name);
+    if (in_.ok() && !tokens.at_end())
+      in_.fail(element_, Fault::xml_list_length, "more numbers than announced", name);
   }
   /// Appends all indices of the list; returns how many.
   Index indices(const char* name, std::vector<Index>& list) {
     const std::size_t before = list.size();
     for (Tokens tokens(raw(name)); in_.ok() && !tokens.at_end();) {
       Index value = 0;
-      if (!parse_number(tokens.next(), value)) in_.fail(element_, "not a number in range", name);
+      if (!parse_number(tokens.next(), value))
+        in_.fail(element_, Fault::xml_number, "not a number in range", name);
       list.push_back(value);
     }
     return static_cast<Index>(list.size() - before);
@@ -188,7 +203,7 @@ std::string_view text_of(Context& in, const XMLElement& element) {
   for (const XMLNode* node = element.FirstChild(); node != nullptr; node = node->NextSibling()) {
     if (node->ToComment() != nullptr) continue;
     if (node->ToText() == nullptr || seen) {
-      in.fail(element, "more than one run of text");
+      in.fail(element, Fault::xml_schema, "more than one run of text");
       return {};
     }
     text = node->Value();
@@ -204,7 +219,7 @@ void read_element(Context& in, const XMLElement& at, Tokens& tokens, const Attri
   out.resize(before + format.element_bytes());
   for (std::size_t c = 0; c < format.count; ++c)
     if (!parse_component(tokens.next(), format.type, out.data() + before + c * size))
-      return in.fail(at, "number is missing, malformed or out of range", name);
+      return in.fail(at, Fault::xml_number, "number is missing, malformed or out of range", name);
 }
 
 void read_element_attribute(Context& in, const XMLElement& at, Attributes& attributes,
@@ -212,7 +227,7 @@ void read_element_attribute(Context& in, const XMLElement& at, Attributes& attri
   Tokens tokens(attributes.raw(name));
   if (!in.ok()) return;
   read_element(in, at, tokens, format, out, name);
-  if (!tokens.at_end()) in.fail(at, "more numbers than announced", name);
+  if (!tokens.at_end()) in.fail(at, Fault::xml_list_length, "more numbers than announced", name);
 }
 
 /// Appends `elements` elements from the text of an element.
@@ -221,11 +236,12 @@ void read_elements(Context& in, const XMLElement* at, Attribute& attribute, std:
   Attributes(in, *at).finish();
   Tokens tokens(text_of(in, *at));
   if (elements > tokens.max_left() / attribute.count)
-    return in.fail(*at, "fewer numbers than announced");
+    return in.fail(*at, Fault::xml_list_length, "fewer numbers than announced");
   attribute.data.reserve(elements * attribute.element_bytes());
   for (std::size_t i = 0; i < elements && in.ok(); ++i)
     read_element(in, *at, tokens, attribute, attribute.data, "");
-  if (in.ok() && !tokens.at_end()) in.fail(*at, "more numbers than announced");
+  if (in.ok() && !tokens.at_end())
+    in.fail(*at, Fault::xml_list_length, "more numbers than announced");
 }
 
 template <class T>
@@ -235,7 +251,7 @@ void read_list(Context& in, const XMLElement* at, std::vector<T>& list) {
   for (Tokens tokens(text_of(in, *at)); in.ok() && !tokens.at_end();) {
     std::uint32_t value = 0;
     if (!parse_number(tokens.next(), value) || value > std::numeric_limits<T>::max())
-      in.fail(*at, "not a number in range");
+      in.fail(*at, Fault::xml_number, "not a number in range");
     list.push_back(static_cast<T>(value));
   }
 }
@@ -248,14 +264,14 @@ void read_map(Context& in, const XMLElement* at, std::vector<Index>& map) {
     const auto marker = std::ranges::find(kMarkerNames, token);
     Index entry = kSameAsMinus2 + static_cast<Index>(marker - kMarkerNames.begin());
     if (marker == kMarkerNames.end() && (!parse_number(token, entry) || !is_wedge(entry)))
-      in.fail(*at, "index-map entry is neither a wedge nor a marker");
+      in.fail(*at, Fault::xml_number, "index-map entry is neither a wedge nor a marker");
     map.push_back(entry);
   }
 }
 
 Bytes read_base64(Context& in, const XMLElement& at) {
   std::optional<Bytes> bytes = parse_base64(text_of(in, at));
-  if (!bytes) in.fail(at, "malformed base64");
+  if (!bytes) in.fail(at, Fault::xml_base64, "malformed base64");
   return std::move(bytes).value_or(Bytes{});
 }
 
@@ -265,7 +281,8 @@ Attribute read_format(Context& in, const XMLElement& at) {
   out.semantic = attributes.string("semantic");
   out.type = attributes.component_type("type");
   const Index count = attributes.index("count");
-  if (in.ok() && (count == 0 || count > 255)) in.fail(at, "not between 1 and 255", "count");
+  if (in.ok() && (count == 0 || count > 255))
+    in.fail(at, Fault::no_components, "not between 1 and 255", "count");
   out.count = static_cast<std::uint8_t>(std::clamp<Index>(count, 1, 255));
   out.normalized = attributes.flag_or("normalized", false);
   attributes.finish();
@@ -286,7 +303,7 @@ class Reader {
     while (const XMLElement* at = children.take_if("mesh")) read_mesh(*at);
     while (const XMLElement* at = children.take_if("base")) read_base(*at);
     if (in_.ok() && out_.bases.size() != out_.meshes.size())
-      in_.fail(root, "not one base for each mesh");
+      in_.fail(root, Fault::xml_bases, "not one base for each mesh");
     while (const XMLElement* at = children.take_if("packet")) read_packet(*at);
     for (;;) {
       if (const XMLElement* at = children.take_if("faces"))
@@ -308,7 +325,7 @@ class Reader {
  private:
   void read_root(const XMLElement& root) {
     if (std::string_view(root.Name()) != "pstrips")
-      return in_.fail(root, "root element is not pstrips");
+      return in_.fail(root, Fault::xml_schema, "root element is not pstrips");
     Attributes attributes(in_, root);
     const std::string_view version = attributes.raw("version");
     const std::size_t dot = version.find('.');
@@ -316,12 +333,12 @@ class Reader {
     if (in_.ok() &&
         (dot == std::string_view::npos || !parse_number(version.substr(0, dot), major) ||
          !parse_number(version.substr(dot + 1), minor)))
-      in_.fail(root, "malformed version", "version");
+      in_.fail(root, Fault::xml_schema, "malformed version", "version");
     if (in_.ok() && major != 1)
-      in_.fail(root, "version that this build does not know", "version", ErrorCode::unsupported);
+      in_.fail(root, Fault::version_unknown, "version that this build does not know", "version");
     in_.newer_version = minor > 0;
     if (attributes.raw("profile") != "plain" && in_.ok())
-      in_.fail(root, "profile that this build does not know", "profile", ErrorCode::unsupported);
+      in_.fail(root, Fault::profile_unknown, "profile that this build does not know", "profile");
     out_.complete = attributes.flag_or("complete", true);
     attributes.finish();
   }
@@ -428,7 +445,7 @@ class Reader {
     read_level(attributes, base);
     attributes.finish();
     if (in_.ok() && (base.mesh + 1 != out_.bases.size() || base.mesh >= out_.meshes.size()))
-      in_.fail(at, "bases are not in the order of the meshes", "mesh");
+      in_.fail(at, Fault::xml_bases, "bases are not in the order of the meshes", "mesh");
     if (!in_.ok()) return;
     ProgressiveMesh& mesh = out_.meshes[base.mesh];
     Children children(in_, at);
@@ -448,15 +465,19 @@ class Reader {
     read_level(attributes, packet);
     attributes.finish();
     if (in_.ok() && packet.mesh >= out_.meshes.size())
-      in_.fail(at, "packet names a mesh past the end", "mesh");
+      in_.fail(at, Fault::packet_mesh, "packet names a mesh past the end", "mesh");
     if (!in_.ok()) return;
     ProgressiveMesh& mesh = out_.meshes[packet.mesh];
     const std::size_t before = mesh.vsplits.size();
     Children children(in_, at);
-    while (const XMLElement* e = children.take_if("vsplit")) read_vsplit(*e, mesh);
+    while (const XMLElement* e = children.take_if("vsplit")) {
+      in_.set_in_vsplit(true);
+      read_vsplit(*e, mesh);
+      in_.set_in_vsplit(false);
+    }
     children.finish();
     if (in_.ok() && mesh.vsplits.size() - before != packet.vsplits)
-      in_.fail(at, "not as many vsplits as announced", "vsplits");
+      in_.fail(at, Fault::xml_packet_vsplits, "not as many vsplits as announced", "vsplits");
   }
 
   void read_vsplit(const XMLElement& at, ProgressiveMesh& mesh) {
@@ -490,7 +511,8 @@ class Reader {
       Tokens tokens(attributes.raw("values"));
       for (Attribute& a : mesh.wedge_attributes)
         if (in_.ok()) read_element(in_, at, tokens, a, a.data, "values");
-      if (in_.ok() && !tokens.at_end()) in_.fail(at, "more numbers than announced", "values");
+      if (in_.ok() && !tokens.at_end())
+        in_.fail(at, Fault::xml_list_length, "more numbers than announced", "values");
     }
     const Index map_offsets = attributes.indices("map_offsets", mesh.map_offsets);
     mesh.wedge_offset_counts.push_back(map_offsets);
@@ -499,18 +521,20 @@ class Reader {
   }
 
   /// The mesh that a tail element names; null with an error, or when that part was there already.
-  ProgressiveMesh* tail_mesh(const XMLElement& at, Attributes& attributes,
+  ProgressiveMesh* tail_mesh(const XMLElement& at, Attributes& attributes, Fault past_end,
                              bool (*has)(const ProgressiveMesh&)) {
     const Index mesh = attributes.index("mesh");
-    if (in_.ok() && mesh >= out_.meshes.size()) in_.fail(at, "names a mesh past the end", "mesh");
-    if (in_.ok() && has(out_.meshes[mesh])) in_.fail(at, "stands twice for a mesh", "mesh");
+    if (in_.ok() && mesh >= out_.meshes.size())
+      in_.fail(at, past_end, "names a mesh past the end", "mesh");
+    if (in_.ok() && has(out_.meshes[mesh]))
+      in_.fail(at, Fault::xml_twice, "stands twice for a mesh", "mesh");
     return in_.ok() ? &out_.meshes[mesh] : nullptr;
   }
 
   void read_faces(const XMLElement& at) {
     Attributes attributes(in_, at);
-    ProgressiveMesh* mesh =
-        tail_mesh(at, attributes, [](const ProgressiveMesh& m) { return !m.faces.empty(); });
+    ProgressiveMesh* mesh = tail_mesh(at, attributes, Fault::faces_mesh,
+                                      [](const ProgressiveMesh& m) { return !m.faces.empty(); });
     attributes.finish();
     if (mesh == nullptr) return;
     Children children(in_, at);
@@ -519,14 +543,14 @@ class Reader {
     corners_ += faces.corners.size();
     check_totals(at);
     if (in_.ok() && faces.replaced.size() > mesh->triangles)
-      in_.fail(at, "more triangles replaced than there are");
+      in_.fail(at, Fault::xml_list_length, "more triangles replaced than there are");
     for (const Attribute& format : mesh->face_attribute_formats) {
       if (!in_.ok()) return;
       Attribute& a = faces.attributes.emplace_back(format);
       read_elements(in_, children.take("values"), a, face_count(*mesh));
     }
     children.finish();
-    if (in_.ok() && faces.empty()) in_.fail(at, "element without content");
+    if (in_.ok() && faces.empty()) in_.fail(at, Fault::xml_twice, "element without content");
   }
 
   void read_face(const XMLElement& at, FaceTable& faces) {
@@ -545,8 +569,9 @@ class Reader {
 
   void read_order(const XMLElement& at) {
     Attributes attributes(in_, at);
-    ProgressiveMesh* mesh = tail_mesh(
-        at, attributes, [](const ProgressiveMesh& m) { return m.order != OriginalOrder{}; });
+    ProgressiveMesh* mesh =
+        tail_mesh(at, attributes, Fault::order_mesh,
+                  [](const ProgressiveMesh& m) { return m.order != OriginalOrder{}; });
     attributes.finish();
     if (mesh == nullptr) return;
     Children children(in_, at);
@@ -555,26 +580,27 @@ class Reader {
     read_list(in_, children.take("face"), mesh->order.face);
     read_list(in_, children.take("rotation"), mesh->order.rotation);
     children.finish();
-    if (in_.ok() && mesh->order == OriginalOrder{}) in_.fail(at, "element without content");
+    if (in_.ok() && mesh->order == OriginalOrder{})
+      in_.fail(at, Fault::xml_twice, "element without content");
   }
 
   void read_digest(const XMLElement& at) {
     Attributes attributes(in_, at);
-    ProgressiveMesh* mesh =
-        tail_mesh(at, attributes, [](const ProgressiveMesh& m) { return !m.digest.empty(); });
+    ProgressiveMesh* mesh = tail_mesh(at, attributes, Fault::digest_mesh,
+                                      [](const ProgressiveMesh& m) { return !m.digest.empty(); });
     if (attributes.raw("algorithm") != kDigestAlgorithm && in_.ok())
-      in_.fail(at, "algorithm that this build does not know", "algorithm", ErrorCode::unsupported);
+      in_.fail(at, Fault::digest_unknown, "algorithm that this build does not know", "algorithm");
     attributes.finish();
     Tokens tokens(text_of(in_, at));
     const std::string_view digits = tokens.next();
     constexpr std::size_t kDigestBytes = 32;
     if (in_.ok() && (digits.size() != 2 * kDigestBytes || !tokens.at_end()))
-      in_.fail(at, "digest is not 64 hexadecimal digits");
+      in_.fail(at, Fault::xml_schema, "digest is not 64 hexadecimal digits");
     for (std::size_t i = 0; i < kDigestBytes && in_.ok(); ++i) {
       std::uint8_t value = 0;
       const char* begin = digits.data() + 2 * i;
       if (std::from_chars(begin, begin + 2, value, 16).ptr != begin + 2)
-        in_.fail(at, "digest is not 64 hexadecimal digits");
+        in_.fail(at, Fault::xml_schema, "digest is not 64 hexadecimal digits");
       mesh->digest.push_back(static_cast<std::byte>(value));
     }
   }
@@ -584,11 +610,11 @@ class Reader {
     const Index image = attributes.index("image");
     attributes.finish();
     if (in_.ok() && image >= out_.scene.images.size())
-      in_.fail(at, "names an image past the end", "image");
+      in_.fail(at, Fault::image_data, "names an image past the end", "image");
     if (in_.ok() && !out_.scene.images[image].data.empty())
-      in_.fail(at, "stands twice for an image", "image");
+      in_.fail(at, Fault::xml_twice, "stands twice for an image", "image");
     Bytes data = read_base64(in_, at);
-    if (in_.ok() && data.empty()) in_.fail(at, "element without content");
+    if (in_.ok() && data.empty()) in_.fail(at, Fault::xml_twice, "element without content");
     if (in_.ok()) out_.scene.images[image].data = std::move(data);
   }
 
@@ -614,11 +640,12 @@ class Reader {
     attributes.finish();
     if (type.size() == chunk.type.size()) std::ranges::copy(type, chunk.type.begin());
     if (in_.ok() && (type.size() != chunk.type.size() || !is_chunk_type(chunk.type)))
-      in_.fail(at, "not a chunk type", "type");
+      in_.fail(at, Fault::xml_chunk_type, "not a chunk type", "type");
     if (in_.ok() && is_known(chunk.type))
-      in_.fail(at, "chunk type that has elements of its own", "type");
+      in_.fail(at, Fault::xml_chunk_type, "chunk type that has elements of its own", "type");
     if (in_.ok() && is_critical(chunk.type))
-      in_.fail(at, "critical chunk that this build does not know", "type", ErrorCode::unsupported);
+      in_.fail(at, Fault::critical_chunk_unknown, "critical chunk that this build does not know",
+               "type");
     chunk.payload = read_base64(in_, at);
   }
 
@@ -626,7 +653,7 @@ class Reader {
   template <class T>
   T& added(std::vector<T>& list, const XMLElement& at) {
     if (list.size() >= in_.limits().meshes)
-      in_.fail(at, "more of these than the limit", {}, ErrorCode::over_limit);
+      in_.fail(at, Fault::over_limit, "more of these than the limit");
     return list.emplace_back();
   }
 
@@ -638,8 +665,7 @@ class Reader {
   void check_totals(const XMLElement& at) {
     const Limits& limits = in_.limits();
     const auto check = [&](std::uint64_t figure, const char* what, std::uint64_t limit) {
-      if (figure > limit)
-        in_.fail(at, over_limit_message(figure, what, limit), {}, ErrorCode::over_limit);
+      if (figure > limit) in_.fail(at, Fault::over_limit, over_limit_message(figure, what, limit));
     };
     check(vertices_, "vertices", limits.vertices);
     check(wedges_, "wedges", limits.wedges);
@@ -759,15 +785,18 @@ Result<ProgressiveStrips> read(ByteView document, const Limits& limits, bool che
   const Result<XmlExtent> extent = scan_xml(document, limits);
   if (!extent) return tl::unexpected<Error>(extent.error());
   if (memory_for(*extent, document.size()) > limits.memory_bytes)
-    return fail(ErrorCode::over_limit, "document needs more memory than the limit");
+    return tl::unexpected(Error{.code = ErrorCode::over_limit,
+                                .message = "document needs more memory than the limit",
+                                .fault = Fault::over_limit});
   tinyxml2::XMLDocument dom;
   const std::string_view text = as_text(document);
   if (dom.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     const auto line = static_cast<std::uint64_t>(dom.ErrorLineNum());
     const bool deep = dom.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    return fail(deep ? ErrorCode::over_limit : ErrorCode::corrupt,
-                deep ? "elements nest deeper than the limit" : "malformed XML",
-                offset_of_line(document, line), "line " + std::to_string(line));
+    const Fault fault = deep ? Fault::over_limit : Fault::xml_malformed;
+    return tl::unexpected(
+        Error{code_of(fault), deep ? "elements nest deeper than the limit" : "malformed XML",
+              offset_of_line(document, line), "line " + std::to_string(line), fault});
   }
   const XMLElement& root = *dom.RootElement();
   Context in(document, limits);

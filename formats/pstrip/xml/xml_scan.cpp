@@ -4,6 +4,7 @@
 #include <charconv>
 #include <vector>
 
+#include "formats/pstrip/xml/xml_fault.h"
 #include "formats/pstrip/xml/xml_text.h"
 
 namespace pstrips::inline formats {
@@ -38,13 +39,13 @@ class Scanner {
   std::string_view rest() const { return text_.substr(at_); }
   bool at_end() const { return at_ == text_.size(); }
 
-  bool fail(ErrorCode code, const char* message) {
+  bool fail(Fault fault, const char* message) {
     if (error_) return false;
     const auto line = 1 + std::ranges::count(text_.substr(0, at_), '\n');
-    error_ = Error{code, message, at_, "line " + std::to_string(line)};
+    error_ = Error{code_of(fault), message, at_, "line " + std::to_string(line), fault};
     return false;
   }
-  bool ends_early() { return fail(ErrorCode::truncated, "ends inside the document"); }
+  bool ends_early() { return fail(Fault::truncated, "ends inside the document"); }
 
   void skip_space() {
     while (!at_end() && is_space(text_[at_])) ++at_;
@@ -56,7 +57,7 @@ class Scanner {
       at_ += word.size();
       return true;
     }
-    return word.starts_with(rest()) ? ends_early() : fail(ErrorCode::corrupt, message);
+    return word.starts_with(rest()) ? ends_early() : fail(Fault::xml_malformed, message);
   }
 
   /// Passes characters up to and with `end`.
@@ -73,14 +74,14 @@ class Scanner {
     if (n == 0)
       return is_cut_character(rest().substr(0, 4))
                  ? ends_early()
-                 : fail(ErrorCode::corrupt, "byte that is no XML character in UTF-8");
+                 : fail(Fault::xml_malformed, "byte that is no XML character in UTF-8");
     at_ += n;
     return true;
   }
 
   bool name(std::string_view& out) {
     if (at_end()) return ends_early();
-    if (!is_name_start(text_[at_])) return fail(ErrorCode::corrupt, "name expected");
+    if (!is_name_start(text_[at_])) return fail(Fault::xml_malformed, "name expected");
     const std::size_t start = at_;
     while (!at_end() && is_name(text_[at_]))
       if (!pass_character()) return false;
@@ -94,13 +95,13 @@ class Scanner {
     std::size_t end = 0;  // of the name, which #x10ffff makes eight characters at most
     while (end < rest().size() && end <= 8 && (is_name(rest()[end]) || rest()[end] == '#')) ++end;
     if (end == rest().size()) return at_ = text_.size(), ends_early();
-    if (rest()[end] != ';') return fail(ErrorCode::corrupt, "entity does not end");
+    if (rest()[end] != ';') return fail(Fault::xml_malformed, "entity does not end");
     const std::string_view word = rest().substr(0, end);
     constexpr std::string_view kDefined[] = {"amp", "lt", "gt", "quot", "apos"};
     const bool known = std::ranges::find(kDefined, word) != std::end(kDefined);
     if (!known && !is_character_reference(word)) {
       at_ = start;
-      return fail(ErrorCode::corrupt, "entity is not one that XML defines");
+      return fail(Fault::xml_malformed, "entity is not one that XML defines");
     }
     at_ += end + 1;
     return true;
@@ -121,10 +122,10 @@ class Scanner {
   bool attribute_value(std::string_view& out) {
     if (at_end()) return ends_early();
     const char quote = text_[at_];
-    if (quote != '"' && quote != '\'') return fail(ErrorCode::corrupt, "quote expected");
+    if (quote != '"' && quote != '\'') return fail(Fault::xml_malformed, "quote expected");
     const std::size_t start = ++at_;
     while (!at_end() && text_[at_] != quote) {
-      if (text_[at_] == '<') return fail(ErrorCode::corrupt, "'<' inside an attribute");
+      if (text_[at_] == '<') return fail(Fault::xml_malformed, "'<' inside an attribute");
       if (text_[at_] == '&' ? !entity() : !pass_character()) return false;
     }
     if (at_end()) return ends_early();
@@ -152,7 +153,7 @@ class Scanner {
       const bool utf8 = value == "UTF-8" || value == "utf-8" || value == "US-ASCII";
       if (key == "encoding" ? utf8 : key != "version" || value == "1.0") continue;
       at_ = start;
-      return fail(ErrorCode::unsupported, "neither XML 1.0 nor in UTF-8");
+      return fail(Fault::xml_unsupported, "neither XML 1.0 nor in UTF-8");
     }
   }
 
@@ -162,7 +163,7 @@ class Scanner {
     if (at_end()) return root_seen_ ? false : ends_early();
     if (text_[at_] != '<') {
       if (character_bytes(rest().substr(0, 4)) == 0) return pass_character();
-      return fail(ErrorCode::corrupt, "text outside the root element");
+      return fail(Fault::xml_malformed, "text outside the root element");
     }
     return markup();
   }
@@ -196,16 +197,16 @@ class Scanner {
         kCharacterData.starts_with(rest()))
       return at_ = text_.size(), ends_early();
     if (text_[at_ + 1] == '!')
-      return fail(ErrorCode::corrupt, "document type declarations are not allowed");
+      return fail(Fault::xml_declaration, "document type declarations are not allowed");
     if (text_[at_ + 1] == '?')
-      return fail(ErrorCode::corrupt, "processing instructions are not allowed");
+      return fail(Fault::xml_declaration, "processing instructions are not allowed");
     return text_[at_ + 1] == '/' ? end_tag() : start_tag();
   }
 
   bool start_tag() {
-    if (open_.empty() && root_seen_) return fail(ErrorCode::corrupt, "second root element");
+    if (open_.empty() && root_seen_) return fail(Fault::xml_malformed, "second root element");
     if (open_.size() >= limits_.xml_depth)
-      return fail(ErrorCode::over_limit, "elements nest deeper than the limit");
+      return fail(Fault::over_limit, "elements nest deeper than the limit");
     ++at_;
     root_seen_ = true;
     ++extent_.elements;
@@ -221,7 +222,7 @@ class Scanner {
         open_.pop_back();
         return expect("/>", "'/>' expected");
       }
-      if (!space) return fail(ErrorCode::corrupt, "white space expected before an attribute");
+      if (!space) return fail(Fault::xml_malformed, "white space expected before an attribute");
       ++extent_.attributes;
       std::string_view key, value;
       if (!attribute(key, value)) return false;
@@ -237,7 +238,7 @@ class Scanner {
     if (at_end()) return ends_early();
     if (open_.empty() || tag != open_.back()) {
       at_ = start;
-      return fail(ErrorCode::corrupt, "end tag does not match the start tag");
+      return fail(Fault::xml_malformed, "end tag does not match the start tag");
     }
     open_.pop_back();
     return expect(">", "'>' expected");

@@ -203,6 +203,8 @@ TEST(Xml, SurvivesMutations) {
     const auto read = read_text(text);
     if (!read) {
       EXPECT_FALSE(read.error().message.empty());
+      const auto unchecked = read_xml_unchecked(as_bytes(text), {}, nullptr);
+      if (!unchecked) EXPECT_NE(unchecked.error().fault, Fault::none) << read.error().message;
       continue;
     }
     ++accepted;
@@ -218,45 +220,59 @@ struct BadEdit {
   const char* from;
   const char* to;
   ErrorCode code;
+  Fault fault;
 };
 
+// Faults that `check` finds in a document that says what it means are Fault::none.
 const BadEdit kBadEdits[] = {
-    {"dtd", "<pstrips", "<!DOCTYPE pstrips [<!ENTITY a \"b\">]><pstrips", ErrorCode::corrupt},
-    {"entity", "generator=\"", "generator=\"&lol;", ErrorCode::corrupt},
-    {"character_reference", "generator=\"", "generator=\"&#0;", ErrorCode::corrupt},
-    {"control_character", "generator=\"", "generator=\"\x01", ErrorCode::corrupt},
-    {"not_utf8", "generator=\"", "generator=\"\xff", ErrorCode::corrupt},
-    {"backslash", "generator=\"", "generator=\"\\n", ErrorCode::corrupt},
-    {"xml_version", "xml version=\"1.0\"", "xml version=\"1.1\"", ErrorCode::unsupported},
-    {"encoding", "UTF-8", "ISO-8859-2", ErrorCode::unsupported},
-    {"instruction", "<pstrips", "<?php ?><pstrips", ErrorCode::corrupt},
-    {"other_root", "<pstrips", "<!-- --><x/><pstrips", ErrorCode::corrupt},
-    {"end_tag", "</scene>", "</scenes>", ErrorCode::corrupt},
-    {"attribute_twice", "generator=", "generator=\"\" generator=", ErrorCode::corrupt},
-    {"attribute_unknown", "generator=", "more=\"\" generator=", ErrorCode::corrupt},
-    {"attribute_missing", "profile=\"plain\"", "", ErrorCode::corrupt},
+    {"dtd", "<pstrips", "<!DOCTYPE pstrips [<!ENTITY a \"b\">]><pstrips", ErrorCode::corrupt,
+     Fault::xml_declaration},
+    {"entity", "generator=\"", "generator=\"&lol;", ErrorCode::corrupt, Fault::xml_malformed},
+    {"character_reference", "generator=\"", "generator=\"&#0;", ErrorCode::corrupt,
+     Fault::xml_malformed},
+    {"control_character", "generator=\"", "generator=\"\x01", ErrorCode::corrupt,
+     Fault::xml_malformed},
+    {"not_utf8", "generator=\"", "generator=\"\xff", ErrorCode::corrupt, Fault::xml_malformed},
+    {"backslash", "generator=\"", "generator=\"\\n", ErrorCode::corrupt, Fault::xml_backslash},
+    {"xml_version", "xml version=\"1.0\"", "xml version=\"1.1\"", ErrorCode::unsupported,
+     Fault::xml_unsupported},
+    {"encoding", "UTF-8", "ISO-8859-2", ErrorCode::unsupported, Fault::xml_unsupported},
+    {"instruction", "<pstrips", "<?php ?><pstrips", ErrorCode::corrupt, Fault::xml_declaration},
+    {"other_root", "<pstrips", "<!-- --><x/><pstrips", ErrorCode::corrupt, Fault::xml_malformed},
+    {"end_tag", "</scene>", "</scenes>", ErrorCode::corrupt, Fault::xml_malformed},
+    {"attribute_twice", "generator=", "generator=\"\" generator=", ErrorCode::corrupt,
+     Fault::xml_malformed},
+    {"attribute_unknown", "generator=", "more=\"\" generator=", ErrorCode::corrupt,
+     Fault::xml_schema},
+    {"attribute_missing", "profile=\"plain\"", "", ErrorCode::corrupt, Fault::xml_schema},
     {"attribute_of_next_version", "version=\"1.0\" profile", "version=\"1.1\" x=\"\" profile",
-     ErrorCode::unsupported},
-    {"version", "version=\"1.0\" profile", "version=\"2.0\" profile", ErrorCode::unsupported},
-    {"version_malformed", "version=\"1.0\" profile", "version=\"1\" profile", ErrorCode::corrupt},
-    {"profile", "profile=\"plain\"", "profile=\"compact\"", ErrorCode::unsupported},
-    {"element_unknown", "<map>", "<maps/><map>", ErrorCode::corrupt},
-    {"element_missing", "<positions>", "<position>", ErrorCode::corrupt},
-    {"text_between", "<mesh ", "x<mesh ", ErrorCode::corrupt},
-    {"encoding_word", "encoding=\"naive\"", "encoding=\"other\"", ErrorCode::corrupt},
-    {"wedge_past_end", "<map>", "<map>4000 ", ErrorCode::corrupt},
-    {"symbol_in_naive_map", "<map>", "<map>R+1 ", ErrorCode::corrupt},
-    {"map_word", "<map>", "<map>R+3 ", ErrorCode::corrupt},
-    {"map_reserved", "<map>", "<map>4294967291 ", ErrorCode::corrupt},
-    {"position_more", "<positions>", "<positions>0 ", ErrorCode::corrupt},
-    {"position_word", "<positions>", "<positions>x", ErrorCode::corrupt},
-    {"parent_past_end", "parent=\"", "parent=\"9", ErrorCode::corrupt},
-    {"offset_past_end", "map_offsets=\"", "map_offsets=\"99999 ", ErrorCode::corrupt},
+     ErrorCode::unsupported, Fault::xml_unsupported},
+    {"version", "version=\"1.0\" profile", "version=\"2.0\" profile", ErrorCode::unsupported,
+     Fault::version_unknown},
+    {"version_malformed", "version=\"1.0\" profile", "version=\"1\" profile", ErrorCode::corrupt,
+     Fault::xml_schema},
+    {"profile", "profile=\"plain\"", "profile=\"compact\"", ErrorCode::unsupported,
+     Fault::profile_unknown},
+    {"element_unknown", "<map>", "<maps/><map>", ErrorCode::corrupt, Fault::xml_schema},
+    {"element_missing", "<position ", "<wedge_attribute ", ErrorCode::corrupt, Fault::xml_schema},
+    {"text_between", "<mesh ", "x<mesh ", ErrorCode::corrupt, Fault::xml_schema},
+    {"encoding_word", "encoding=\"naive\"", "encoding=\"other\"", ErrorCode::corrupt,
+     Fault::value_undefined},
+    {"wedge_past_end", "<map>", "<map>4000 ", ErrorCode::corrupt, Fault::none},
+    {"symbol_in_naive_map", "<map>", "<map>R+1 ", ErrorCode::corrupt, Fault::none},
+    {"map_word", "<map>", "<map>R+3 ", ErrorCode::corrupt, Fault::xml_number},
+    {"map_reserved", "<map>", "<map>4294967291 ", ErrorCode::corrupt, Fault::xml_number},
+    {"position_more", "<positions>", "<positions>0 ", ErrorCode::corrupt, Fault::xml_list_length},
+    {"position_word", "<positions>", "<positions>x", ErrorCode::corrupt, Fault::xml_number},
+    {"parent_past_end", "parent=\"", "parent=\"9", ErrorCode::corrupt, Fault::none},
+    {"offset_past_end", "map_offsets=\"", "map_offsets=\"99999 ", ErrorCode::corrupt, Fault::none},
     {"vsplit_count", "first_vsplit=\"0\" vsplits=\"2\"", "first_vsplit=\"0\" vsplits=\"1\"",
-     ErrorCode::corrupt},
-    {"digest_algorithm", "SHA-256", "MD5", ErrorCode::unsupported},
-    {"huge_count", "vertices=\"7\"", "vertices=\"4294967040\"", ErrorCode::over_limit},
-    {"count_past_32_bits", "vertices=\"7\"", "vertices=\"4294967296\"", ErrorCode::corrupt},
+     ErrorCode::corrupt, Fault::xml_packet_vsplits},
+    {"digest_algorithm", "SHA-256", "MD5", ErrorCode::unsupported, Fault::digest_unknown},
+    {"huge_count", "vertices=\"7\"", "vertices=\"4294967040\"", ErrorCode::over_limit,
+     Fault::over_limit},
+    {"count_past_32_bits", "vertices=\"7\"", "vertices=\"4294967296\"", ErrorCode::corrupt,
+     Fault::xml_number},
 };
 
 TEST(Xml, RejectsBadEditsWithCodeAndPlace) {
@@ -268,6 +284,7 @@ TEST(Xml, RejectsBadEditsWithCodeAndPlace) {
     EXPECT_FALSE(read);
     if (read) continue;
     EXPECT_EQ(read.error().code, edit.code) << read.error().message << " " << read.error().path;
+    EXPECT_EQ(read.error().fault, edit.fault) << read.error().message << " " << read.error().path;
     EXPECT_TRUE(read.error().path.starts_with("line ")) << read.error().path;
     EXPECT_NE(read.error().offset, kNoOffset);
   }
