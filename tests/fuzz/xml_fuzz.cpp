@@ -65,7 +65,7 @@ fuzz::Target pstrips::fuzz::target() {
                        "AAAA",
                        "=",
                        "naive",
-                       "offset-difference",
+                       "offset",
                        "f64",
                        "u8"},
              .seeds = {}};

@@ -25,8 +25,8 @@ constexpr Case kCases[] = {
      [] { return reworded(roof(), "<packet", "<group/><packet"); }},
     {"PS5004_later_minor_version.pstripx",
      [] {
-       return reworded(roof(), "version=\"1.0\" profile=\"plain\"",
-                       "version=\"1.7\" profile=\"plain\" colour=\"red\"");
+       return reworded(roof(), "version=\"2.0\" profile=\"plain\"",
+                       "version=\"2.7\" profile=\"plain\" colour=\"red\"");
      }},
     {"PS5010_base_of_another_mesh.pstripx",
      [] { return reworded(roof(), "<base mesh=\"0\"", "<base mesh=\"1\""); }},

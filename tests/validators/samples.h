@@ -22,7 +22,7 @@ ProgressiveStrips symbols();
 /// The same with an attribute of each face.
 ProgressiveStrips numbered_faces();
 
-/// Several wedges a vertex, free placement, three groups, a polygon, a line, face attributes, the
+/// Several wedges a vertex, optimal placement, three groups, a polygon, a line, face attributes, the
 /// original order and a digest.
 ProgressiveStrips seam();
 

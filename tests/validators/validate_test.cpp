@@ -52,7 +52,7 @@ TEST(Validate, ATruncatedFileThatIsAlsoCorruptIsInvalid) {
 }
 
 TEST(Validate, SaysWhereInBothVariants) {
-  // The third record writes a place of another vertex.
+  // The third record writes an entry of another vertex.
   ProgressiveStrips strips = test::roof();
   strips.meshes[0].map_offsets[2] = 0;
   const Bytes binary = test::written(strips);
@@ -62,9 +62,9 @@ TEST(Validate, SaysWhereInBothVariants) {
   EXPECT_EQ(finding.code, "PS4014");
   EXPECT_EQ(finding.clause, "V-014");
   EXPECT_EQ(finding.path, "PCKT 1, vsplit 1, map offset");
-  std::uint32_t place = 1;
-  std::memcpy(&place, binary.data() + finding.offset, sizeof place);
-  EXPECT_EQ(place, 0u);
+  std::uint32_t map_offset = 1;
+  std::memcpy(&map_offset, binary.data() + finding.offset, sizeof map_offset);
+  EXPECT_EQ(map_offset, 0u);
 
   const Bytes xml = test::reworded(test::roof(), "map_offsets=\"8\"", "map_offsets=\"0\"");
   const Report in_xml = validate(xml);

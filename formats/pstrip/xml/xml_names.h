@@ -10,6 +10,11 @@ namespace pstrips::inline formats {
 
 // Words that stand for values in the XML variant. [spec/xml.md §5]
 
+/// What the variant's own versions count. [spec/xml.md X-004]
+inline constexpr Index kXmlVersionMajor = 2;
+inline constexpr std::string_view kXmlVersion = "2.0";
+static_assert(kXmlVersion.front() - '0' == kXmlVersionMajor);
+
 /// In the order of the enumeration that each belongs to.
 inline constexpr std::array<std::string_view, 2> kEncodingNames = {"naive", "offset"};
 inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "optimal"};

@@ -334,7 +334,7 @@ class Reader {
         (dot == std::string_view::npos || !parse_number(version.substr(0, dot), major) ||
          !parse_number(version.substr(dot + 1), minor)))
       in_.fail(root, Fault::xml_schema, "malformed version", "version");
-    if (in_.ok() && major != 1)
+    if (in_.ok() && major != kXmlVersionMajor)
       in_.fail(root, Fault::version_unknown, "version that this build does not know", "version");
     in_.newer_version = minor > 0;
     if (attributes.raw("profile") != "plain" && in_.ok())

@@ -372,7 +372,7 @@ void write_unknown(XmlWriter& xml, const UnknownChunk& chunk) {
 Bytes write_xml(const ProgressiveStrips& strips) {
   XmlWriter xml;
   xml.begin("pstrips");
-  xml.string("version", "1.0");
+  xml.string("version", kXmlVersion);
   xml.string("profile", "plain");
   if (!strips.complete) xml.flag("complete", false);
   xml.end_start();
