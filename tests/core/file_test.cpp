@@ -25,8 +25,14 @@ class Files : public ::testing::Test {
 
 TEST_F(Files, ComeBackAsWritten) {
   using namespace std::string_literals;
-  for (const std::string& text : {""s, "abc"s, "\0\n\r\r\n\0"s}) {
+  std::string every_byte;
+  for (int b = 0; b < 256; ++b) every_byte += static_cast<char>(b);
+  // What text modes change or stop at: line ends, NUL, ^Z; several pages of it, too.
+  std::string pages;
+  while (pages.size() < 20'000) pages += every_byte + "\r\n\n\r";
+  for (const std::string& text : {""s, "abc"s, "\0"s, "\0\n\r\r\n\x1a\0"s, every_byte, pages}) {
     ASSERT_TRUE(write_files({{dir_ / "a", as_bytes(text)}}));
+    EXPECT_EQ(std::filesystem::file_size(dir_ / "a"), text.size());
     EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), text);
   }
   EXPECT_EQ(count(), 1u);
