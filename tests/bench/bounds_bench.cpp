@@ -104,7 +104,7 @@ int main(std::vector<std::string> models) {
     models = {"classic/bun_zipper.ply", "classic/horse.ply",        "classic/igea.ply",
               "classic/fandisk.obj",    "classic/turbineblade.ply", "classic/nefertiti.obj"};
   for (const std::string& name : models) {
-    const std::optional<Mesh> mesh = test::real_mesh(name);
+    const std::optional<Mesh> mesh = test::model_mesh(name);
     if (!mesh) {
       fmt::print(stderr, "{}: not there\n", name);
       return 1;

@@ -176,7 +176,7 @@ void measure_all(int rounds) {
                                                          {"horse", "classic/horse.ply"},
                                                          {"igea", "classic/igea.ply"}};
   for (const auto& [name, path] : kModels)
-    if (const auto mesh = test::real_mesh(path)) measure(name, *mesh, rounds);
+    if (const auto mesh = test::model_mesh(path)) measure(name, *mesh, rounds);
   measure("grid", test::grid(838), rounds);
 }
 

@@ -130,8 +130,8 @@ void add_model(const std::string& name, const Mesh& mesh) {
 }
 
 void add_models() {
-  const auto bunny = test::real_mesh("classic/bun_zipper.ply");
-  const auto igea = test::real_mesh("classic/igea.ply");
+  const auto bunny = test::model_mesh("classic/bun_zipper.ply");
+  const auto igea = test::model_mesh("classic/igea.ply");
   if (bunny) add_model("bunny", *bunny);
   if (igea) add_model("igea", *igea);
   if (!bunny && !igea) add_model("torus", test::torus(200, 170));

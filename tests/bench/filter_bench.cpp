@@ -95,8 +95,8 @@ void add_model(const std::string& model, const Mesh& mesh) {
 
 // Only meshes of one wedge a vertex and one group.
 void add_models() {
-  const auto cow = test::real_mesh("classic/cow.obj"),
-             bunny = test::real_mesh("classic/bun_zipper.ply");
+  const auto cow = test::model_mesh("classic/cow.obj"),
+             bunny = test::model_mesh("classic/bun_zipper.ply");
   if (cow) add_model("cow", *cow);
   if (bunny) add_model("bunny", *bunny);
   if (!cow && !bunny) add_model("grid", test::grid(100));

@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   fmt::print("model,simplifier,share,source_triangles,triangles,seconds,rms,hausdorff\n");
   bool any = false;
   for (const std::string& path : options.models) {
-    const auto mesh = test::real_mesh(path);
+    const auto mesh = test::model_mesh(path);
     if (!mesh) continue;
     any = true;
     bench::measure(std::filesystem::path(path).stem().string(), bench::shape_of(*mesh), options);

@@ -154,7 +154,7 @@ void add_tasks() {
                                                          {"fandisk", "classic/fandisk.obj"}};
   bool any = false;
   for (const auto& [name, path] : kModels) {
-    const auto mesh = test::real_mesh(path);
+    const auto mesh = test::model_mesh(path);
     if (!mesh) continue;
     any = true;
     add_task(name, *mesh);

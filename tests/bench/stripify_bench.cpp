@@ -78,7 +78,7 @@ void add_models() {
       {"nefertiti", "classic/nefertiti.obj"}};
   bool found = false;
   for (const auto& [name, path] : kModels)
-    if (const auto mesh = test::real_mesh(path)) {
+    if (const auto mesh = test::model_mesh(path)) {
       add_model(name, *mesh);
       found = true;
     }

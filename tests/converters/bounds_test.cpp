@@ -160,11 +160,11 @@ TEST(Bounds, DoNotDependOnThreads) {
   EXPECT_EQ(encode(model, {.threads = 1}).value(), encode(model, {.threads = 2}).value());
 }
 
-class ModelBounds : public testing::TestWithParam<const char*> {};
+class ModelBounds : public testing::TestWithParam<std::string> {};
 
 TEST_P(ModelBounds, Hold) {
-  const std::optional<Mesh> mesh = test::real_mesh(GetParam());
-  if (!mesh) GTEST_SKIP() << "no model " << GetParam();
+  const std::optional<Mesh> mesh = test::model_mesh(GetParam());
+  ASSERT_TRUE(mesh);
   for (const Placement placement : {Placement::subset, Placement::optimal}) {
     EncodeOptions options{.base_share = 0.01, .placement = placement, .packet_growth = 4};
     if (placement == Placement::optimal) options.metric = Metric::memoryless;
@@ -172,10 +172,12 @@ TEST_P(ModelBounds, Hold) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Classic, ModelBounds,
-                         testing::Values("classic/fandisk.obj", "classic/blade.ply",
-                                         "classic/bun_zipper.ply", "ply-variety/models_bunny.ply",
-                                         "nasty/topology/bunny2.ply"));
+INSTANTIATE_TEST_SUITE_P(Each, ModelBounds,
+                         testing::ValuesIn(test::those_here(
+                             {"shipped/surfaces/double_ring.ply", "shipped/surfaces/terrain.ply",
+                              "shipped/surfaces/non_manifold.ply", "classic/fandisk.obj",
+                              "classic/blade.ply", "classic/bun_zipper.ply",
+                              "ply-variety/models_bunny.ply", "nasty/topology/bunny2.ply"})));
 
 }  // namespace
 }  // namespace pstrips

@@ -1,5 +1,5 @@
-// Every real model there is: convert, validate, convert back, compare. Models that cannot be read
-// must say so with a code. Without the folder of models the generated ones still run.
+// Every model there is, shipped or real: convert, validate, convert back, compare. Models that
+// cannot be read must say so with a code.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -94,26 +94,11 @@ TEST_F(Models, GeneratedOnesComeBack) {
   }
 }
 
-TEST_F(Models, RealOnesComeBack) {
-  std::vector<fs::path> paths;
-  if (const auto dir = test::models_dir())
-    for (const auto& entry : fs::recursive_directory_iterator(*dir)) {
-      static const std::vector<std::string> kEndings = {".ply", ".obj", ".gltf", ".glb", ".pm"};
-      std::string ending = entry.path().extension().string();
-      std::ranges::transform(ending, ending.begin(),
-                             [](unsigned char c) { return std::tolower(c); });
-      if (entry.is_regular_file() && std::ranges::find(kEndings, ending) != kEndings.end())
-        paths.push_back(entry.path());
-    }
-  else if (const fs::path bunny = "/usr/share/glmark2/models/bunny.obj"; fs::exists(bunny))
-    paths.push_back(bunny);
-  if (paths.empty()) GTEST_SKIP() << "neither a folder of models nor glmark2-data is there";
-  std::ranges::sort(paths);
-
+TEST_F(Models, InFilesComeBack) {
   std::map<std::string, int> refused;
   int readable = 0;
-  for (const fs::path& path : paths) {
-    SCOPED_TRACE(path.string());
+  for (const auto& [name, path] : test::model_files({".ply", ".obj", ".gltf", ".glb", ".pm"})) {
+    SCOPED_TRACE(name);
     auto file = load(path.string());
     if (!file) {
       static constexpr const char* kCodes[] = {

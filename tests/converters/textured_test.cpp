@@ -18,6 +18,7 @@
 #include "converters/encode.h"
 #include "converters/files.h"
 #include "tests/support/meshes.h"
+#include "tests/support/models.h"
 #include "tests/support/paths.h"
 #include "tests/support/seamed_meshes.h"
 
@@ -37,15 +38,15 @@ std::vector<Seamed> generated() {
           {"cube", test::cube(true)}};
 }
 
-std::vector<Seamed> real() {
+std::vector<Seamed> from_files() {
   std::vector<Seamed> out;
-  const auto dir = test::models_dir();
-  if (!dir) return out;
   for (const char* const path :
-       {"textured/spot/spot_triangulated.obj", "textured/texturedknot/texturedknot.obj",
+       {"shipped/textured/charts.obj", "shipped/textured/charts.glb",
+        "textured/spot/spot_triangulated.obj", "textured/texturedknot/texturedknot.obj",
         "textured/Duck-glTF-Binary/Duck.glb", "textured/blender-io/02_suzanne/02_suzanne.gltf",
         "textured/CesiumMan-glTF-Binary/CesiumMan.glb", "textured/babylon/shaderBall.glb"}) {
-    auto file = load(*dir / path);
+    if (!test::is_here(path)) continue;
+    auto file = load(*test::model_path(path));
     if (file && !file->is_progressive())
       out.push_back({path, std::get<Model>(std::move(file->content)).meshes.at(0)});
   }
@@ -161,9 +162,9 @@ TEST(TexturedLevels, DoNotCrackAtSeams) {
   }
 }
 
-TEST(TexturedLevels, OfRealModelsDoNotCrackEither) {
-  const auto models = real();
-  if (models.empty()) GTEST_SKIP() << "the folder of models is not there";
+TEST(TexturedLevels, OfFilesDoNotCrackEither) {
+  const auto models = from_files();
+  ASSERT_GE(models.size(), 2u);
   for (const Seamed& seamed : models) {
     SCOPED_TRACE(seamed.name);
     const auto border = open_edges(seamed.mesh);
@@ -195,7 +196,7 @@ TEST(TexturedLevels, KeepSeamsWhereTheyAre) {
 
 TEST(TexturedLevels, ReachTheBaseAskedFor) {
   std::vector<Seamed> all = generated();
-  for (Seamed& model : real()) all.push_back(std::move(model));
+  for (Seamed& model : from_files()) all.push_back(std::move(model));
   for (const Seamed& seamed : all) {
     SCOPED_TRACE(seamed.name);
     const std::size_t triangles = triangulate(seamed.mesh).face.size();

@@ -1,24 +1,46 @@
 #include "tests/support/models.h"
 
+#include <stdexcept>
+
 #include "core/file.h"
 #include "formats/obj/obj.h"
 #include "formats/ply/ply.h"
 #include "tests/support/paths.h"
 
 namespace pstrips::test {
+namespace {
 
-std::optional<Mesh> real_mesh(const std::string& path_in_models) {
-  const auto dir = models_dir();
-  if (!dir) return std::nullopt;
-  const auto file = read_file(*dir / path_in_models);
+std::optional<Mesh> first_mesh(const std::filesystem::path& path) {
+  const auto file = read_file(path);
   if (!file) return std::nullopt;
   const ReadFile no_companions = [](const std::string&) -> Result<Bytes> {
     return fail(ErrorCode::io, "not looked up");
   };
-  auto model = path_in_models.ends_with(".obj") ? read_obj(file->view(), no_companions)
-                                                : read_ply(file->view());
+  auto model =
+      path.extension() == ".obj" ? read_obj(file->view(), no_companions) : read_ply(file->view());
   if (!model || model->meshes.empty()) return std::nullopt;
   return std::move(model->meshes.front());
+}
+
+bool is_shipped(const std::string& path) { return path.starts_with(kShippedModels); }
+
+}  // namespace
+
+bool is_here(const std::string& path) { return is_shipped(path) || models_dir(); }
+
+std::vector<std::string> those_here(std::vector<std::string> paths) {
+  std::erase_if(paths, [](const std::string& path) {
+    const auto place = model_path(path);
+    return !is_shipped(path) && (!place || !std::filesystem::exists(*place));
+  });
+  return paths;
+}
+
+std::optional<Mesh> model_mesh(const std::string& path) {
+  const auto place = model_path(path);
+  auto mesh = place ? first_mesh(*place) : std::nullopt;
+  if (!mesh && is_shipped(path)) throw std::runtime_error("cannot read " + path);
+  return mesh;
 }
 
 }  // namespace pstrips::test

@@ -2,13 +2,24 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/mesh.h"
 
 namespace pstrips::test {
 
-/// The first mesh of a .ply or .obj file in the folder of real models; nothing when the folder or
-/// the file is not there or cannot be read. Materials are not looked up.
-std::optional<Mesh> real_mesh(const std::string& path_in_models);
+// Models by a path: "shipped/x" is tests/data/models/x, which is always there; any other path is in
+// the folder of real models, which may not be there.
+
+/// Whether tests of that model run.
+bool is_here(const std::string& path);
+
+/// Those of the paths whose files are there.
+std::vector<std::string> those_here(std::vector<std::string> paths);
+
+/// The first mesh of a .ply or .obj file; nothing when the folder of real models or the file in it
+/// is not there or cannot be read. Materials are not looked up. A shipped model that cannot be read
+/// is a broken test: it throws.
+std::optional<Mesh> model_mesh(const std::string& path);
 
 }  // namespace pstrips::test

@@ -17,7 +17,16 @@ struct Band {
   std::uint64_t least_strips, most_strips;
   double most_indices_per_triangle;
 };
+constexpr const char* kRings = "shipped/surfaces/double_ring.ply";
 constexpr Band kBands[] = {
+    {kRings, "stripe-lookahead", 55, 85, 1.46},
+    {kRings, "stripe-noswap", 65, 95, 1.42},
+    {kRings, "sgi-strips", 60, 85, 1.46},
+    {kRings, "sgi-vertices", 280, 370, 1.43},
+    {kRings, "dstrips-greedy", 300, 400, 1.44},
+    {kRings, "dstrips-greedy-noswap", 650, 900, 1.65},
+    {kRings, "dstrips-adjacency", 75, 120, 1.42},
+    {kRings, "best", 170, 340, 1.365},
     {"classic/cow.obj", "stripe-lookahead", 70, 141, 1.37},  // 141 [Vanecek05 table 8.3 STS, STV]
     {"classic/cow.obj", "stripe-noswap", 120, 160, 1.32},    // 136
     {"classic/bun_zipper.ply", "stripe-lookahead", 500, 1531, 1.27},  // 1531
@@ -38,10 +47,10 @@ constexpr Band kBands[] = {
 };
 
 TEST(Stripifiers, StayWithinTheirBandsOnRealModels) {
-  if (!test::real_mesh(kBands[0].model)) GTEST_SKIP() << "the folder of real models is not there";
   for (const Band& band : kBands) {
+    if (!test::is_here(band.model)) continue;
     SCOPED_TRACE(testing::Message() << band.stripifier << " of " << band.model);
-    const auto mesh = test::real_mesh(band.model);
+    const auto mesh = test::model_mesh(band.model);
     ASSERT_TRUE(mesh);
     const test::StripMesh triangles = test::strip_mesh(*mesh);
     const Strips strips = find_stripifier(band.stripifier)->run(triangles.input(), {});
@@ -61,14 +70,16 @@ TEST(MStrip, StaysNearTheThesis) {
     StripGoal goal;
     std::uint64_t most_strips, most_entries;
   };
-  constexpr Case kCases[] = {{"classic/cow.obj", StripGoal::strips, 95, 8'000},
+  constexpr Case kCases[] = {{kRings, StripGoal::strips, 70, 5'300},
+                             {kRings, StripGoal::indices, 110, 5'400},
+                             {"classic/cow.obj", StripGoal::strips, 95, 8'000},
                              {"classic/cow.obj", StripGoal::indices, 180, 7'600},
                              {"classic/bun_zipper.ply", StripGoal::strips, 575, 86'000},
                              {"classic/bun_zipper.ply", StripGoal::indices, 1400, 83'500}};
-  if (!test::real_mesh(kCases[0].model)) GTEST_SKIP() << "the folder of real models is not there";
   for (const Case& c : kCases) {
+    if (!test::is_here(c.model)) continue;
     SCOPED_TRACE(c.model);
-    const test::StripMesh mesh = test::strip_mesh(*test::real_mesh(c.model));
+    const test::StripMesh mesh = test::strip_mesh(*test::model_mesh(c.model));
     const Strips strips = find_stripifier("mstrip")->run(mesh.input(), {.goal = c.goal});
     ASSERT_EQ(test::find_strip_fault(mesh.input(), strips), "");
     EXPECT_LE(strip_stats(strips).strips, c.most_strips);
@@ -77,7 +88,11 @@ TEST(MStrip, StaysNearTheThesis) {
 }
 
 TEST(PolygonStripifiers, CoverRealModelsOnce) {
-  constexpr const char* kModels[] = {"quads/beast.obj",
+  constexpr const char* kModels[] = {"shipped/polygons/frame.obj",
+                                     "shipped/polygons/torus.ply",
+                                     "shipped/polygons/moebius.obj",
+                                     "shipped/polygons/cells.obj",
+                                     "quads/beast.obj",
                                      "quads/cube_40k.obj",
                                      "quads/cross_quad.obj",
                                      "quads/double-torus-3-holes.obj",
@@ -90,9 +105,9 @@ TEST(PolygonStripifiers, CoverRealModelsOnce) {
                                      "textured/pirate/pirate.obj",
                                      "nasty/topology/office_chair.obj",
                                      "classic/cow_polygons_normals.obj"};
-  if (!test::real_mesh(kModels[0])) GTEST_SKIP() << "the folder of real models is not there";
   for (const char* model : kModels) {
-    const auto mesh = test::real_mesh(model);
+    if (!test::is_here(model)) continue;
+    const auto mesh = test::model_mesh(model);
     ASSERT_TRUE(mesh) << model;
     const test::PolygonMesh faces = test::polygon_mesh(*mesh);
     for (const NamedStripifier& stripifier : stripifiers()) {
@@ -111,14 +126,14 @@ TEST(QStrip, MakesFewStripsOfQuads) {
     std::uint64_t most_strips;
     double most_entries_per_quad;
   };
-  constexpr Case kCases[] = {{"quads/fertility_quad.obj", 10, 2.3},
-                             {"quads/horse_quad.obj", 10, 2.35},
-                             {"quads/spot_quadrangulated.obj", 20, 2.3},
-                             {"quads/beast.obj", 130, 2.3}};
-  if (!test::real_mesh(kCases[0].model)) GTEST_SKIP() << "the folder of real models is not there";
+  constexpr Case kCases[] = {
+      {"shipped/polygons/frame.obj", 12, 2.4},    {"shipped/polygons/torus.ply", 5, 2.3},
+      {"quads/fertility_quad.obj", 10, 2.3},      {"quads/horse_quad.obj", 10, 2.35},
+      {"quads/spot_quadrangulated.obj", 20, 2.3}, {"quads/beast.obj", 130, 2.3}};
   for (const Case& c : kCases) {
+    if (!test::is_here(c.model)) continue;
     SCOPED_TRACE(c.model);
-    const test::PolygonMesh mesh = test::polygon_mesh(*test::real_mesh(c.model));
+    const test::PolygonMesh mesh = test::polygon_mesh(*test::model_mesh(c.model));
     const Strips strips =
         find_stripifier("qstrip")->run_polygons(mesh.input(), {.goal = StripGoal::strips});
     ASSERT_EQ(test::find_strip_fault(mesh.input(), strips), "");
@@ -130,12 +145,12 @@ TEST(QStrip, MakesFewStripsOfQuads) {
 }
 
 TEST(Best, MakesFewStripsOfRealModels) {
-  constexpr std::pair<const char*, std::uint64_t> kMax[] = {{"classic/cow.obj", 5},
-                                                            {"classic/bun_zipper.ply", 40}};
-  if (!test::real_mesh(kMax[0].first)) GTEST_SKIP() << "the folder of real models is not there";
+  constexpr std::pair<const char*, std::uint64_t> kMax[] = {
+      {kRings, 3}, {"classic/cow.obj", 5}, {"classic/bun_zipper.ply", 40}};
   for (const auto& [model, most] : kMax) {
+    if (!test::is_here(model)) continue;
     SCOPED_TRACE(model);
-    const auto mesh = test::real_mesh(model);
+    const auto mesh = test::model_mesh(model);
     ASSERT_TRUE(mesh);
     const test::StripMesh triangles = test::strip_mesh(*mesh);
     const Strips strips =

@@ -67,10 +67,8 @@ std::string difference(const Mesh& mesh, const tinyobj::ObjReader& peer) {
 }
 
 TEST(ObjPeer, TinyobjloaderReadsTheSame) {
-  const auto root = models_dir();
-  if (!root) GTEST_SKIP() << "no models folder";
   std::size_t compared = 0;
-  for (const auto& path : obj_files(*root)) {
+  for (const auto& [name, path] : model_files({".obj"})) {
     if (path.filename() == "box_longline.obj") continue;  // 936 corners; it counts them in a byte
     const std::string text = load(path);
     const auto model = read_text(text);

@@ -401,14 +401,21 @@ TEST(Text, WritesWhatItCanReadOrNothing) {
   EXPECT_GT(refused, 0);
 }
 
-TEST(Text, RefusesARealFileOfHoppesLibrary) {
-  const auto models = test::models_dir();
-  if (!models) GTEST_SKIP() << "no models folder";
-  std::ifstream in(*models / "classic" / "spheretext.pm", std::ios::binary);
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  const auto read = read_text(as_bytes(bytes));
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().code, ErrorCode::unsupported);
+TEST(Text, RefusesFilesOfHoppesLibrary) {
+  std::vector<std::string> files = {
+      std::string(
+          "# |||o sphere\n# ||Created by a filter\nPM\nversion=2\nnvsplits=2 nvertices=6\n") +
+          std::string("PM base mesh:\n\0\0\0\4\xff\r\n", 21),
+      "PM\nversion=2\n"};
+  if (const auto real = test::model_path("classic/spheretext.pm")) {
+    std::ifstream in(*real, std::ios::binary);
+    files.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  }
+  for (const std::string& file : files) {
+    const auto read = read_text(as_bytes(file));
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::unsupported);
+  }
 }
 
 /// One entry that all others of a fan repeat, and vsplits that rewrite it again and again: each of
