@@ -88,7 +88,7 @@ void add_strips(Report& report, const ProgressiveStrips& strips,
   report.figures = inspect(strips, ends);
   report.meshes = strips.meshes.size();
   report.complete = strips.complete;
-  report.profile = "plain";
+  report.profile = name_of(strips.profile);
   add_scene(report, strips.scene);
   for (const ProgressiveMesh& mesh : strips.meshes) {
     report.strips_encoding = mesh.encoding == MapEncoding::naive ? "naive" : "offset";

@@ -4,8 +4,8 @@
 
 namespace pstrips::inline core {
 
-/// Which demand of the specification a file breaks, or why else it is not taken. Each stands for
-/// one rule of validators/rules.cpp; an error that carries one is that rule's.
+/// Which demand of the specification a file breaks, or why else it is not taken. An error that
+/// carries one belongs to one rule of validators/rules.cpp; what it says is in core/fault.cpp.
 enum class Fault : std::uint8_t {
   none,
   // The answer is not "corrupt".
@@ -51,6 +51,7 @@ enum class Fault : std::uint8_t {
   packet_single_wedges,
   faces_mesh,
   faces_empty,
+  faces_missing,
   face_elements,
   order_mesh,
   order_rotation_bits,
@@ -58,6 +59,47 @@ enum class Fault : std::uint8_t {
   digest_mesh,
   image_data,
   packet_not_next,
+  image_missing,
+  // Totals of PSHD, rows of PIDX.
+  totals,
+  base_end,
+  file_bytes,
+  row_count,
+  row_chunk,
+  row_contents,
+  row_vertices,
+  // Counts and lists of the model.
+  list_length,
+  count_too_large,
+  single_wedge_counts,
+  attribute_count,
+  group_missing,
+  group_material,
+  group_entries,
+  base_too_large,
+  vsplit_count,
+  entry_count,
+  wedge_vertex,
+  wedge_count,
+  vsplits_missing,
+  face_bounds,
+  face_corner,
+  face_group,
+  replaced_bounds,
+  replaced_triangle,
+  replaced_twice,
+  face_count,
+  order_vertex,
+  order_wedge,
+  order_face,
+  rotation,
+  digest_length,
+  node_parent,
+  node_mesh,
+  material_image,
+  map_entry,
+  map_symbol,
+  symbol_chain,
   // XML.
   xml_malformed,
   xml_declaration,
@@ -87,5 +129,6 @@ enum class Fault : std::uint8_t {
   offset_not_of_parent,
   isolated_vertex_moves,
 };
+inline constexpr Fault kLastFault = Fault::isolated_vertex_moves;
 
 }  // namespace pstrips::inline core

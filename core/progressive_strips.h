@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/mesh.h"
+#include "core/profile.h"
 #include "core/scene.h"
 #include "core/strips.h"
 
@@ -122,6 +123,7 @@ struct UnknownChunk {
 /// A whole file in memory. [spec/model.md §1]
 struct ProgressiveStrips {
   std::string generator;  ///< who wrote the file
+  Profile profile = Profile::plain;
   Scene scene;
   std::vector<ProgressiveMesh> meshes;
   std::vector<BaseLevel> bases;  ///< one a mesh, in mesh order

@@ -337,7 +337,9 @@ class Reader {
     if (in_.ok() && major != kXmlVersionMajor)
       in_.fail(root, Fault::version_unknown, "version that this build does not know", "version");
     in_.newer_version = minor > 0;
-    if (attributes.raw("profile") != "plain" && in_.ok())
+    if (const auto profile = profile_named(attributes.raw("profile")))
+      out_.profile = *profile;
+    else if (in_.ok())
       in_.fail(root, Fault::profile_unknown, "profile that this build does not know", "profile");
     out_.complete = attributes.flag_or("complete", true);
     attributes.finish();

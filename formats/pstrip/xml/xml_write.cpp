@@ -373,7 +373,7 @@ Bytes write_xml(const ProgressiveStrips& strips) {
   XmlWriter xml;
   xml.begin("pstrips");
   xml.string("version", kXmlVersion);
-  xml.string("profile", "plain");
+  xml.string("profile", name_of(strips.profile));
   if (!strips.complete) xml.flag("complete", false);
   xml.end_start();
   write_scene(xml, strips);
