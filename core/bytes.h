@@ -16,7 +16,7 @@
 namespace pstrips::inline core {
 
 // Arrays are copied between files and memory as they are.
-static_assert(std::endian::native == std::endian::little, "pstrip needs a little-endian host");
+static_assert(std::endian::native == std::endian::little, "pstrips needs a little-endian host");
 
 using Bytes = std::vector<std::byte>;
 using ByteView = std::span<const std::byte>;
@@ -28,8 +28,8 @@ inline std::string_view as_text(ByteView bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Reads little-endian fields from untrusted bytes. The first failure sticks: later reads return
-/// zero or nothing, so a parser reads in a straight line and asks `error()` once.
+/// Reads little-endian fields from untrusted bytes. The first failure stays: later reads return
+/// zero or nothing. So a parser reads in a straight line and looks at `error()` once, at its end.
 class ByteReader {
  public:
   /// bytes        must outlive the reader and every span it hands out

@@ -6,8 +6,8 @@
 
 namespace pstrips::inline core {
 
-/// What a reader accepts from untrusted input. Every reader and decoder takes one; a count that
-/// exceeds a limit is answered with ErrorCode::over_limit before anything is allocated for it.
+/// What a reader accepts from untrusted input. A reader answers a count that exceeds a limit with
+/// ErrorCode::over_limit, before it allocates anything for it.
 struct Limits {
   std::uint64_t vertices = 1u << 28;        ///< per file, all meshes together
   std::uint64_t wedges = 1u << 28;          ///< per file
@@ -16,8 +16,9 @@ struct Limits {
   std::uint64_t string_bytes = 1u << 24;    ///< one name, comment or text value
   std::uint64_t memory_bytes = 8ull << 30;  ///< what a reader may allocate in all
   std::uint32_t xml_depth = 64;             ///< nesting of elements (also of JSON)
-  unsigned threads =
-      0;  ///< that a reader may work with, see thread_count(); the result is the same
+  /// Threads that a reader may work with, see thread_count(). The result is the same for any
+  /// number.
+  unsigned threads = 0;
 };
 
 /// "9 vertices, more than the limit of 8"

@@ -52,8 +52,9 @@ struct Attribute {
 /// Component c of element i as a number; normalized integers are scaled. [glTF §3.6.2.2]
 double component(const Attribute& attribute, std::size_t i, std::size_t c);
 
-/// Makes a number component c of element i: the nearest that the type has, ties to even, NaN as 0
-/// for integers. Stores what component() gave as it was, but for the normalized integers below -1.
+/// Stores a number as component c of element i: the nearest that the type has, ties to even; NaN
+/// becomes 0 in integers. What component() returned is stored as it was, except the smallest
+/// normalized integer: it means -1, and the one above it is stored.
 void set_component(Attribute& attribute, std::size_t i, std::size_t c, double value);
 
 enum class FaceKind : std::uint8_t {
@@ -81,10 +82,10 @@ struct Mesh {
   std::string name;
   Attribute position{.semantic = "POSITION", .type = ComponentType::f32, .count = 3, .data = {}};
   std::vector<Index> wedge_vertex;          ///< a vertex for each wedge; empty: wedge i is vertex i
-  std::vector<Attribute> wedge_attributes;  ///< each with one element a wedge
+  std::vector<Attribute> wedge_attributes;  ///< each has one element a wedge
   std::vector<Index> corners;               ///< wedges, all faces one after the other
-  std::vector<Index>
-      face_first;  ///< first corner of each face and one past the end; empty: triangles
+  /// First corner of each face and one past the end; empty: triangles.
+  std::vector<Index> face_first;
   std::vector<Index> face_group;  ///< a group for each face; empty: all faces are in group 0
   std::vector<Attribute> face_attributes;  ///< each with one element a face
   std::vector<Group> groups;               ///< not empty
@@ -108,11 +109,11 @@ struct Mesh {
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
-/// Brings the three optional lists into their shortest form; readers call it last.
+/// Brings the three optional lists into their shortest form. Readers call it last.
 void canonicalize(Mesh& mesh);
 
-/// What must hold of every mesh, as a phrase; empty when it does. For tests and for converters
-/// that take meshes from strangers. Cost O(size).
+/// The first rule of Mesh that a mesh breaks, as a phrase; empty when it breaks none. Tests call
+/// it, and converters that take meshes from outside. Cost O(size).
 std::string find_inconsistency(const Mesh& mesh);
 
 /// Positions as doubles, three a vertex; missing components are 0.

@@ -19,8 +19,8 @@ inline unsigned thread_count(unsigned wanted) {
 /// `grain` alone: a body that writes only what belongs to its run gives the same for any number of
 /// threads.
 ///
-/// Returns when all runs are done. An exception of a body ends the work early and is thrown again
-/// here. Starting a thread costs some 20 microseconds: a run should be worth more.
+/// Returns when all runs are done. An exception of a body ends the work early; this function throws
+/// it again. A thread takes some 20 microseconds to start, so a run should take longer.
 ///
 /// Precondition: grain > 0.
 template <class Body>

@@ -9,14 +9,14 @@
 
 namespace pstrips::inline core {
 
-/// What kind of answer an error is. Truncated, corrupt and over_limit are three different answers
-/// to untrusted bytes: "more bytes may mend it", "no bytes will", "it may be fine, we refuse it".
+/// The kinds of errors. Of untrusted bytes, `truncated` means that more bytes may mend the input,
+/// `corrupt` that no bytes will, `over_limit` that the input may be valid and is refused.
 enum class ErrorCode : std::uint8_t {
   bad_argument,  ///< an option or argument from outside that cannot be used
   io,            ///< the operating system refused to read or write
   truncated,     ///< the input ends before what it announces
   corrupt,       ///< the input contradicts its format
-  over_limit,    ///< the input asks for more than `Limits` grants
+  over_limit,    ///< the input needs more than `Limits` grants
   unsupported,   ///< well-formed, but needs something this build does not know
   interrupted,   ///< the user stopped the work
 };

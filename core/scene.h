@@ -17,8 +17,8 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
-/// What every target format can express of a material. The exact words of the source format
-/// travel in Scene::foreign.
+/// What every target format can express of a material. Scene::foreign keeps the exact words of the
+/// source format.
 struct Material {
   std::string name;
   std::array<double, 4> base_color{1, 1, 1, 1};  ///< linear RGBA
@@ -30,7 +30,7 @@ struct Material {
   friend bool operator==(const Material&, const Material&) = default;
 };
 
-/// A node of the scene graph. Parents come before their children.
+/// A node of the scene graph. A parent comes before its children.
 struct Node {
   std::string name;
   Index parent = kNone;
@@ -39,8 +39,8 @@ struct Node {
   friend bool operator==(const Node&, const Node&) = default;
 };
 
-/// What one format keeps for its own way back: comments, unknown elements, the rest of a glTF.
-/// Only the format named before the first '/' of the key reads or writes the data.
+/// What a reader keeps for the writer of the same format: comments, unknown elements, the rest of a
+/// glTF. Only the format named before the first '/' of the key reads or writes the data.
 struct Foreign {
   std::string key;  ///< "ply/…", "obj/…", "gltf/…"; unique within a scene
   Bytes data;

@@ -23,8 +23,8 @@ struct TetraMesh {
 using Tetra = std::array<Index, 4>;
 
 /// Generalized tetrahedral strips, one after the other. A strip's first four entries are a
-/// tetrahedron; each entry more is a vertex that takes the place of one of the four before, which
-/// makes the next tetrahedron. [King01; spec/tetra.md]
+/// tetrahedron. Each further entry is a vertex; it replaces one of the four before it, which makes
+/// the next tetrahedron. [King01; spec/tetra.md]
 struct TetraStrips {
   std::vector<Index> vertices;
   /// One an entry: 0 in the first four of a strip, else 1 to 4: which of the four vertices goes.
@@ -51,7 +51,7 @@ void for_each_tetra(const TetraStrips& strips, Visit&& visit) {
       continue;
     }
     // The new vertex is on the other side of the face that stays, and a vertex that moves from
-    // place `slot` to the fourth changes places with 4 - slot others.
+    // position `slot` to the fourth passes 4 - slot others.
     for (unsigned k = slot; k < 4; ++k) window[k - 1] = window[k];
     window[3] = strips.vertices[i];
     is_odd = is_odd != (slot % 2 == 0);
