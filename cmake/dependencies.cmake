@@ -1,27 +1,36 @@
 # The one place that says what is used and from which version on. All are Debian 12 packages; their
-# names are in scripts/packages.
+# names are in scripts/packages-build and the lists beside it.
 find_package(Threads REQUIRED)
 find_package(ZLIB 1.2 REQUIRED)
 find_package(OpenSSL 3.0 REQUIRED COMPONENTS Crypto)
-find_package(fmt 9.1 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
-find_package(CLI11 2.1 REQUIRED)
 find_package(tinyxml2 9.0 REQUIRED)
 find_path(EXPECTED_INCLUDE_DIR tl/expected.hpp REQUIRED)
 find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h REQUIRED)
 
+if(PSTRIPS_CLI)
+  find_package(fmt 9.1 REQUIRED)
+  find_package(CLI11 2.1 REQUIRED)
+endif()
+
 # Compared with, where they are installed. VTK is half a gigabyte and in no list of ours.
-find_package(meshoptimizer 0.18 QUIET)
-find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/IO/MeshIO.hh)
-find_library(OPENMESH_CORE OpenMeshCore)
-find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
+if(PSTRIPS_PEERS)
+  find_package(meshoptimizer 0.18 QUIET)
+  find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/IO/MeshIO.hh)
+  find_library(OPENMESH_CORE OpenMeshCore)
+  find_package(VTK 9.1 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore)
+endif()
 
 if(PSTRIPS_TESTS)
   find_package(GTest 1.12 REQUIRED)
   find_package(TinyGLTF 2.7 REQUIRED)  # reads what we write, for comparison
-  find_package(benchmark 1.7 REQUIRED)
   find_package(rapidcheck REQUIRED)
   find_package(tinyobjloader REQUIRED)  # 2.0.0~rc10; its config names no plain number
+endif()
+
+if(PSTRIPS_BENCH)
+  find_package(benchmark 1.7 REQUIRED)
+  find_package(fmt 9.1 REQUIRED)
   find_package(meshoptimizer 0.18 REQUIRED)
   find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/IO/MeshIO.hh REQUIRED)
 endif()

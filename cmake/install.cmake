@@ -2,7 +2,9 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS pstrips EXPORT pstrips-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS pstrips_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(PSTRIPS_CLI)
+  install(TARGETS pstrips_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 install(DIRECTORY core codecs formats converters validators
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pstrips FILES_MATCHING PATTERN "*.h")
 install(EXPORT pstrips-targets NAMESPACE pstrips:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pstrips)
