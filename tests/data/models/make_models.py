@@ -25,9 +25,11 @@ def implicit_surface(inside, cells, box):
     surface of a body within the box is closed.
     """
     step = 2 * box / cells
-    corner = list(itertools.product((0, 1), repeat=3))
-    tets = [(0, 1 << (2 - a), (1 << (2 - a)) | (1 << (2 - b)), 7) for a, b, _ in itertools.permutations(range(3))]
-    even = [tuple(p) in ((0, 1, 2), (1, 2, 0), (2, 0, 1)) for p in itertools.permutations(range(3))]
+    # A tetrahedron walks from one end of the diagonal to the other, one axis after the other.
+    unit = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    add = lambda p, q: tuple(a + b for a, b in zip(p, q))
+    axes = list(itertools.permutations(range(3)))
+    tets = [((0, 0, 0), unit[a], add(unit[a], unit[b]), (1, 1, 1)) for a, b, _ in axes]
     value = {
         n: inside(*(x * step - box for x in n)) for n in itertools.product(range(cells + 1), repeat=3)
     }
@@ -43,9 +45,9 @@ def implicit_surface(inside, cells, box):
         return vertex[key]
 
     for cell in itertools.product(range(cells), repeat=3):
-        for tet, positive in zip(tets, even):
-            nodes = [tuple(c + d for c, d in zip(cell, corner[k])) for k in tet]
-            if not positive:
+        for tet, order in zip(tets, axes):
+            nodes = [add(cell, corner) for corner in tet]
+            if permutation_sign(order) < 0:
                 nodes[0], nodes[1] = nodes[1], nodes[0]
             within = [k for k in range(4) if value[nodes[k]] > 0]
             faces.extend(tetrahedron_faces(nodes, within, crossing))
@@ -95,9 +97,11 @@ def terrain():
         positions.append((x, y, height(x, y)))
     faces = []
     for i, j in itertools.product(range(n), repeat=2):
-        a, b, c, d = i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1
+        a, b = i * (n + 1) + j, (i + 1) * (n + 1) + j
+        c, d = b + 1, a + 1
         faces += [(a, b, c), (a, c, d)] if rng.random() < 0.5 else [(a, b, d), (b, c, d)]
-    hole = lambda x, y: any((x - u) ** 2 + (y - v) ** 2 < r for u, v, r in ((0.3, 0.3, 0.01), (0.7, 0.6, 0.02)))
+    holes = ((0.3, 0.3, 0.01), (0.7, 0.6, 0.02))
+    hole = lambda x, y: any((x - u) ** 2 + (y - v) ** 2 < r for u, v, r in holes)
     faces = [f for f in faces if not hole(*positions[f[0]][:2]) and rng.random() > 0.004]
     return positions, faces
 
@@ -107,7 +111,11 @@ def grid(columns, rows, point, closed_columns=False, closed_rows=False):
     across, along = columns + (not closed_columns), rows + (not closed_rows)
     positions = [point(i, j) for i in range(across) for j in range(along)]
     at = lambda i, j: (i % across) * along + j % along
-    faces = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for i in range(columns) for j in range(rows)]
+    faces = [
+        (at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1))
+        for i in range(columns)
+        for j in range(rows)
+    ]
     return positions, faces
 
 
@@ -168,7 +176,8 @@ def catmull_clark(positions, faces):
 
 def frame():
     """A cube with a tunnel through each of two pairs of sides, of quads: genus 3 when smooth."""
-    solid = {c for c in itertools.product(range(3), repeat=3)} - {(1, 1, k) for k in range(3)} - {(1, k, 1) for k in range(3)}
+    solid = set(itertools.product(range(3), repeat=3))
+    solid -= {(1, 1, k) for k in range(3)} | {(1, k, 1) for k in range(3)}
     positions, faces, index = [], [], {}
 
     def vertex(p):
@@ -240,16 +249,17 @@ def non_manifold():
         columns = [list(range(n + 1))]
         for r in range(1, 7):
             first = len(positions)
-            positions.extend((r / 6 * math.cos(angle), r / 6 * math.sin(angle), k / n) for k in range(n + 1))
+            x, y = r / 6 * math.cos(angle), r / 6 * math.sin(angle)
+            positions.extend((x, y, k / n) for k in range(n + 1))
             columns.append(list(range(first, first + n + 1)))
         for left, right in zip(columns, columns[1:]):
             for k in range(n):
                 faces += [(left[k], right[k], right[k + 1]), (left[k], right[k + 1], left[k + 1])]
-    for _ in range(2):  # two cones, tip to tip at one vertex of the spine
-        first = len(positions)
-        sign = 1 if _ else -1
-        positions.extend((0.4 * math.cos(2 * math.pi * k / 9), 0.4 * math.sin(2 * math.pi * k / 9), 1 + sign * 0.4) for k in range(9))
-        faces.extend((n, first + k, first + (k + 1) % 9)[:: sign] for k in range(9))
+    for sign in (-1, 1):  # two cones, tip to tip at one vertex of the spine
+        first, turn = len(positions), 2 * math.pi / 9
+        for k in range(9):
+            positions.append((0.4 * math.cos(turn * k), 0.4 * math.sin(turn * k), 1 + sign * 0.4))
+            faces.append((n, first + k, first + (k + 1) % 9)[::sign])
     torus_positions, quads = quad_torus(9, 6)
     first = add(([tuple(c + 3 for c in p) for p in torus_positions], triangulated(quads)))
     faces += [faces[-1], faces[-2][::-1], (first, first, first + 1)]
@@ -319,18 +329,21 @@ def smooth_normals(positions, corners):
 
 def checker_png():
     """8 by 8 squares in two colours; stored, not deflated, so that every zlib writes the same."""
-    size = 16
+    size, colours = 16, (b"\x30\x60\xa0", b"\xd8\x70\x30")
     rows = b"".join(
-        b"\0" + b"".join((b"\xd8\x70\x30" if (x // 2 + y // 2) % 2 else b"\x30\x60\xa0") for x in range(size))
-        for y in range(size)
+        b"\0" + b"".join(colours[(x // 2 + y // 2) % 2] for x in range(size)) for y in range(size)
     )
-    chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
     head = struct.pack(">IIBBBBB", size, size, 8, 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, 0)) + chunk(b"IEND", b"")
+    chunks = ((b"IHDR", head), (b"IDAT", zlib.compress(rows, 0)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        for kind, body in chunks
+    )
 
 
 def ply(positions, faces, form="binary_little_endian", number="float", extra=(), values=()):
-    head = ["ply", f"format {form} 1.0", "comment made by make_models.py", f"element vertex {len(positions)}"]
+    head = ["ply", f"format {form} 1.0", "comment made by make_models.py"]
+    head += [f"element vertex {len(positions)}"]
     head += [f"property {number} {axis}" for axis in "xyz"] + [f"property {t} {name}" for t, name in extra]
     if faces is not None:
         head += [f"element face {len(faces)}", "property list uchar int vertex_indices"]
@@ -360,14 +373,17 @@ def tristrips_ply(columns, rows):
         for j in range(rows + 1):
             strips += [((i + 1) % columns) * rows + j % rows, i * rows + j % rows]
         strips.append(-1)
-    head = ["ply", "format ascii 1.0", f"element vertex {len(positions)}", "property float x", "property float y",
-            "property float z", "element tristrips 1", "property list int int vertex_indices", "end_header"]
-    rows_text = [" ".join(f"{x:.6g}" for x in p) for p in positions] + [" ".join(map(str, [len(strips)] + strips))]
-    return ("\n".join(head + rows_text) + "\n").encode()
+    head = ["ply", "format ascii 1.0", f"element vertex {len(positions)}"]
+    head += [f"property float {axis}" for axis in "xyz"]
+    head += ["element tristrips 1", "property list int int vertex_indices", "end_header"]
+    body = [" ".join(f"{x:.6g}" for x in p) for p in positions]
+    body += [" ".join(map(str, [len(strips)] + strips))]
+    return ("\n".join(head + body) + "\n").encode()
 
 
 def obj(positions, faces, normals=None):
-    lines = ["# made by make_models.py", "o surface"] + [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in positions]
+    lines = ["# made by make_models.py", "o surface"]
+    lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in positions]
     if normals:
         lines += [f"vn {x:.4f} {y:.4f} {z:.4f}" for x, y, z in normals]
     corner = (lambda v: f"{v + 1}//{v + 1}") if normals else (lambda v: str(v + 1))
@@ -379,10 +395,12 @@ def charted_obj(n):
     positions, normals, uvs, corners = charted_sphere(n)
     lines = ["# made by make_models.py", "mtllib charts.mtl", "o sphere"]
     lines += [f"v {x:.6g} {y:.6g} {z:.6g}" for x, y, z in positions]
-    lines += [f"vt {u:.6g} {v:.6g}" for u, v in uvs] + [f"vn {x:.4f} {y:.4f} {z:.4f}" for x, y, z in normals]
+    lines += [f"vt {u:.6g} {v:.6g}" for u, v in uvs]
+    lines += [f"vn {x:.4f} {y:.4f} {z:.4f}" for x, y, z in normals]
     lines += ["usemtl checker"]
     word = lambda c: f"{c[0] + 1}/{c[1] + 1}/{c[0] + 1}"
-    lines += [f"f {word(a)} {word(b)} {word(c)}" for a, b, c in zip(corners[0::3], corners[1::3], corners[2::3])]
+    triangles = zip(corners[0::3], corners[1::3], corners[2::3])
+    lines += [f"f {word(a)} {word(b)} {word(c)}" for a, b, c in triangles]
     return ("\n".join(lines) + "\n").encode()
 
 
@@ -404,16 +422,17 @@ class Gltf:
     """A glTF asset of one buffer in the making."""
 
     def __init__(self):
-        self.json = {"asset": {"version": "2.0", "generator": "make_models.py"}, "bufferViews": [], "accessors": []}
+        self.json = {"asset": {"version": "2.0", "generator": "make_models.py"}}
         self.buffer = b""
 
     def add(self, key, value):
         self.json.setdefault(key, []).append(value)
         return len(self.json[key]) - 1
 
-    def view(self, data, **more):
+    def view(self, data):
         self.buffer += b"\0" * (-len(self.buffer) % 4)
-        view = self.add("bufferViews", {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), **more})
+        span = {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data)}
+        view = self.add("bufferViews", span)
         self.buffer += data
         return view
 
@@ -421,7 +440,8 @@ class Gltf:
         component = {"f": 5126, "H": 5123, "B": 5121}[letter]
         flat = [x for row in rows for x in row]
         data = struct.pack(f"<{len(flat)}{letter}", *flat)
-        out = {"bufferView": self.view(data), "componentType": component, "count": len(rows), "type": kind, **more}
+        out = {"bufferView": self.view(data), "componentType": component, "count": len(rows)}
+        out |= {"type": kind, **more}
         if bounds:
             rounded = list(struct.unpack(f"<{len(flat)}{letter}", data))
             width = len(rows[0])
@@ -444,8 +464,9 @@ class Gltf:
         self.json["buffers"] = [{"byteLength": len(self.buffer)}]
         text = json.dumps(self.json, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
-        chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(self.buffer), 0x004E4942) + self.buffer
-        return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+        chunks = struct.pack("<I4s", len(text), b"JSON") + text
+        chunks += struct.pack("<I4s", len(self.buffer), b"BIN\0") + self.buffer
+        return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
 def charted_primitive(asset, n):
@@ -464,13 +485,15 @@ def charted_primitive(asset, n):
 
 def checker_material(asset, image):
     texture = asset.add("textures", {"source": asset.add("images", image)})
-    return asset.add("materials", {"name": "checker", "pbrMetallicRoughness": {"baseColorTexture": {"index": texture}}})
+    look = {"baseColorTexture": {"index": texture}}
+    return asset.add("materials", {"name": "checker", "pbrMetallicRoughness": look})
 
 
 def charts_glb():
     asset = Gltf()
     primitive = charted_primitive(asset, 11)
-    primitive["material"] = checker_material(asset, {"bufferView": asset.view(checker_png()), "mimeType": "image/png"})
+    image = {"bufferView": asset.view(checker_png()), "mimeType": "image/png"}
+    primitive["material"] = checker_material(asset, image)
     mesh = asset.add("meshes", {"name": "sphere", "primitives": [primitive]})
     asset.add("scenes", {"nodes": [asset.add("nodes", {"mesh": mesh})]})
     return asset.binary()
@@ -482,17 +505,26 @@ def instances_gltf():
     sphere = charted_primitive(asset, 5)
     sphere["material"] = checker_material(asset, {"uri": "charts.png"})
     torus_positions, quads = quad_torus(16, 8)
-    ring = {"attributes": {"POSITION": asset.positions(torus_positions)},
-            "indices": asset.indices([v for f in triangulated(quads) for v in f]),
-            "material": asset.add("materials", {"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}})}
-    meshes = [asset.add("meshes", {"name": name, "primitives": [p]}) for name, p in (("sphere", sphere), ("ring", ring))]
-    half = math.sqrt(0.5)
-    for node in ({"name": "root", "children": [1, 2, 3]},
-                 {"name": "left", "mesh": meshes[0], "translation": [-2, 0, 0]},
-                 {"name": "right", "mesh": meshes[0], "translation": [2, 0, 0], "scale": [-1, 1, 1]},
-                 {"name": "arm", "rotation": [round(half, 7), 0, 0, round(half, 7)], "children": [4, 5]},
-                 {"name": "ring", "mesh": meshes[1], "scale": [2, 2, 2]},
-                 {"name": "small ring", "mesh": meshes[1], "matrix": [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 3, 0, 1]}):
+    red = {"name": "red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}
+    ring = {
+        "attributes": {"POSITION": asset.positions(torus_positions)},
+        "indices": asset.indices([v for f in triangulated(quads) for v in f]),
+        "material": asset.add("materials", red),
+    }
+    meshes = [
+        asset.add("meshes", {"name": "sphere", "primitives": [sphere]}),
+        asset.add("meshes", {"name": "ring", "primitives": [ring]}),
+    ]
+    half = round(math.sqrt(0.5), 7)
+    smaller = [0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 3, 0, 1]
+    for node in (
+        {"name": "root", "children": [1, 2, 3]},
+        {"name": "left", "mesh": meshes[0], "translation": [-2, 0, 0]},
+        {"name": "right", "mesh": meshes[0], "translation": [2, 0, 0], "scale": [-1, 1, 1]},
+        {"name": "arm", "rotation": [half, 0, 0, half], "children": [4, 5]},
+        {"name": "ring", "mesh": meshes[1], "scale": [2, 2, 2]},
+        {"name": "small ring", "mesh": meshes[1], "matrix": smaller},
+    ):
         asset.add("nodes", node)
     asset.add("scenes", {"name": "all", "nodes": [0]})
     asset.json["scene"] = 0
@@ -504,7 +536,8 @@ def skinned_glb():
     asset = Gltf()
     columns, rows = 12, 16
     turn = lambda i: 2 * math.pi * i / columns
-    positions, quads = grid(columns, rows, lambda i, j: (0.3 * math.cos(turn(i)), 0.3 * math.sin(turn(i)), 2 * j / rows), True)
+    point = lambda i, j: (0.3 * math.cos(turn(i)), 0.3 * math.sin(turn(i)), 2 * j / rows)
+    positions, quads = grid(columns, rows, point, True)
     upper = [min(max(z - 0.5, 0), 1) for _, _, z in positions]
     primitive = {
         "attributes": {
@@ -514,7 +547,7 @@ def skinned_glb():
             "WEIGHTS_0": asset.accessor([(1 - t, t, 0, 0) for t in upper], "f", "VEC4"),
         },
         "indices": asset.indices([v for f in triangulated(quads) for v in f]),
-        "targets": [{"POSITION": asset.positions([(x * 0.5, y * 0.5, 0.0) for x, y, _ in positions])}],
+        "targets": [{"POSITION": asset.positions([(x / 2, y / 2, 0.0) for x, y, _ in positions])}],
     }
     mesh = asset.add("meshes", {"name": "tube", "primitives": [primitive], "weights": [0]})
     identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0]
@@ -544,8 +577,9 @@ def lines_glb():
     fan = asset.indices([24, *range(24), 0])
     segments = asset.indices([v for k in range(12) for v in (k, 23 - k)])
     strip = asset.indices(list(range(0, 24, 3)))
-    primitives = [{"attributes": shared, "mode": mode, **({} if indices is None else {"indices": indices})}
-                  for mode, indices in ((0, None), (1, segments), (3, strip), (2, strip), (6, fan))]
+    primitives = [{"attributes": shared, "mode": 0}]
+    for mode, indices in ((1, segments), (3, strip), (2, strip), (6, fan)):
+        primitives.append({"attributes": shared, "mode": mode, "indices": indices})
     mesh = asset.add("meshes", {"primitives": primitives})
     asset.add("scenes", {"nodes": [asset.add("nodes", {"mesh": mesh})]})
     return asset.binary()
@@ -567,7 +601,8 @@ def broken_gltf():
     triangle = {"attributes": {"POSITION": asset.positions([(0, 0, 0), (1, 0, 0), (0, 1, 0)])}}
     asset.add("meshes", {"primitives": [triangle]})
     asset.json["accessors"][0]["count"] = 4
-    return asset.text("data:application/octet-stream;base64," + base64.b64encode(asset.buffer).decode())
+    data = base64.b64encode(asset.buffer).decode()
+    return asset.text("data:application/octet-stream;base64," + data)
 
 
 def shuffled(positions, faces):
@@ -592,17 +627,19 @@ def all_files():
     ring_ply = ply(*ring)
     rgb = [("uchar", "red"), ("uchar", "green"), ("uchar", "blue")]
     red = [(k % 256, 40, 90) for k in range(len(torus[0]))]
+    small = quad_torus(12, 7)
+    triangles = [v for f in triangulated(cells[1]) for v in f]
     return {
         "surfaces/double_ring.ply": ring_ply,
         "surfaces/terrain.ply": ply(*land, form="binary_big_endian"),
         "surfaces/non_manifold.ply": ply(*non_manifold(), form="ascii"),
         "surfaces/soup.obj": obj(*soup()),
-        "surfaces/double.ply": ply(*map(list, (quad_torus(12, 7)[0], triangulated(quad_torus(12, 7)[1]))), number="double"),
+        "surfaces/double.ply": ply(small[0], triangulated(small[1]), number="double"),
         "surfaces/tristrips.ply": tristrips_ply(14, 9),
         "polygons/frame.obj": obj(*cage),
         "polygons/torus.ply": ply(*torus, extra=rgb, values=red),
         "polygons/moebius.obj": obj(*moebius()),
-        "polygons/cells.obj": obj(cells[0], cells[1], smooth_normals(cells[0], [v for f in triangulated(cells[1]) for v in f])),
+        "polygons/cells.obj": obj(*cells, smooth_normals(cells[0], triangles)),
         "textured/charts.obj": charted_obj(8),
         "textured/charts.mtl": b"newmtl checker\nKd 1 1 1\nmap_Kd charts.png\n",
         "textured/charts.png": checker_png(),
@@ -625,7 +662,8 @@ def main():
     folder = pathlib.Path(arguments[0]) if arguments else pathlib.Path(__file__).parent
     files = all_files()
     if "--check" in sys.argv:
-        different = [n for n, data in files.items() if not (folder / n).is_file() or (folder / n).read_bytes() != data]
+        same = lambda path, data: path.is_file() and path.read_bytes() == data
+        different = [name for name, data in files.items() if not same(folder / name, data)]
         for name in different:
             print(f"{name}: not what make_models.py makes")
         return bool(different)
