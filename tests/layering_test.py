@@ -41,7 +41,7 @@ _ERROR = r"\berror(?:\(\))?(?:\.|->)"
 DECIDES_BY_WORDS = re.compile(
     rf"{_ERROR}(?:message|path)\.(?:find|starts_with|ends_with|contains|compare|substr)\b"
     rf"|{_ERROR}message\s*[!=]=|[!=]=\s*\w*{_ERROR}message\b"
-    rf"|\b(?:find|count|lower_bound|search|contains)\([^;]*{_ERROR}(?:message|path)\b"
+    rf"|\b(?:find|count|lower_bound|search|contains)\([^;]*{_ERROR}message\b"
 )
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

@@ -7,77 +7,20 @@
 namespace pstrips::inline validators {
 namespace {
 
-/// The path of the model that xml.h knows lines by.
-std::string model_path(const Document& doc, const Where& where) {
-  const std::string element = std::to_string(where.element);
-  const std::string mesh = "/meshes/" + std::to_string(where.mesh);
-  switch (where.field) {
-    case Field::mesh:
-    case Field::counts:
-      return mesh;
-    case Field::position_format:
-      return mesh + "/position";
-    case Field::wedge_format:
-      return mesh + "/wedge_attributes/" + element;
-    case Field::face_format:
-      return mesh + "/face_attributes/" + element;
-    case Field::group:
-      return mesh + "/groups/" + element;
-    case Field::base:
-      return "/bases/" + std::to_string(where.mesh);
-    case Field::base_wedge_vertex:
-      return mesh + "/base_wedge_vertex/" + element;
-    case Field::base_map:
-      return mesh + "/base_map/" + element;
-    case Field::packet:
-      return "/packets/" + std::to_string(doc.packets_of[where.mesh][where.packet]);
-    case Field::record:
-    case Field::parent:
-    case Field::reassigned:
-    case Field::map_offset: {
-      std::size_t vsplit = where.record;
-      for (Index k = 0; k < where.packet; ++k)
-        vsplit += doc.strips.packets[doc.packets_of[where.mesh][k]].vsplits;
-      return mesh + "/vsplits/" + std::to_string(vsplit);
-    }
-    case Field::faces:
-    case Field::face_corner:
-    case Field::replaced:
-      return mesh + "/faces";
-    case Field::face_first:
-    case Field::face_group:
-    case Field::replaced_first:
-      return mesh + "/faces/" + element;
-    case Field::order:
-      return mesh + "/order";
-    case Field::order_vertex:
-      return mesh + "/order/vertex/" + element;
-    case Field::order_wedge:
-      return mesh + "/order/wedge/" + element;
-    case Field::order_face:
-      return mesh + "/order/face/" + element;
-    case Field::rotation:
-      return mesh + "/order/rotation/" + element;
-    case Field::digest:
-      return mesh + "/digest";
-    case Field::node:
-      return "/scene/nodes/" + element;
-    case Field::material:
-      return "/scene/materials/" + element;
-    case Field::image:
-      return "/scene/images/" + element;
-    case Field::foreign:
-      return "/scene/foreign/" + element;
-    default:
-      return "";
-  }
+/// The same place with the packet counted in the file and the record in the mesh.
+Where in_model(const Document& doc, Where where) {
+  if (where.mesh == kNone || where.packet == kNone) return where;
+  const std::vector<Index>& packets = doc.packets_of[where.mesh];
+  if (where.record != kNone)
+    for (Index k = 0; k < where.packet; ++k) where.record += doc.strips.packets[packets[k]].vsplits;
+  where.packet = packets[where.packet];
+  return where;
 }
 
 Location locate_xml(const Document& doc, const Where& where) {
   if (where.field == Field::file) return {where.element, doc.stopped_at};
-  const std::string path = model_path(doc, where);
-  const std::uint32_t line = doc.lines.line_of(path);
-  return {offset_of_line(doc.file, line), "line " + std::to_string(line) + ", " + path};
+  const XmlPlace place = doc.lines.find(path_of(in_model(doc, where)));
+  return {offset_of_line(doc.file, place.line), place.text()};
 }
 
 layout::MeshCounts counts_of(const ProgressiveMesh& mesh, bool complete) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,16 +17,45 @@ namespace pstrips::inline formats {
 // The XML variant of progressive strips, `.pstripx`: the information of the binary variant, for
 // people to read and for other tools to make. [spec/xml.md]
 
-/// In which line of the document each part of the model stands.
-struct XmlLocations {
-  /// Lines by the path that errors of `check` (formats/pstrip/payload/check.h) have: "/packets/5",
-  /// "/scene/nodes/2", "/meshes/0/faces", "/foreign/1", "/unknown/0" … Lines count from 1.
-  std::map<std::string, std::uint32_t, std::less<>> elements;
-  std::vector<std::vector<std::uint32_t>> vsplits;  ///< per mesh, one a vsplit
+/// Where a part of the model stands in a document.
+struct XmlPlace {
+  std::uint32_t line = 1;  ///< from 1
+  std::string element;     ///< "/pstrips/packet[0]/vsplit[2]": siblings of a name count from 0
+  std::optional<std::uint32_t> entry;  ///< of the list that the element holds
 
-  /// The line of the smallest part that the path leads into: "/meshes/0/vsplits/17/parent" gives
-  /// the line of that vsplit, a path without a part of its own the line of what encloses it.
-  std::uint32_t line_of(std::string_view path) const;
+  /// "line 12, /pstrips/base[0]/map[0], entry 3"
+  std::string text() const;
+};
+
+/// Where each part of the model stands in the document.
+class XmlLocations {
+ public:
+  /// The smallest element that leads to the part with that path; paths are those of the errors of
+  /// `check` (formats/pstrip/payload/check.h): "/packets/5", "/meshes/0/vsplits/17",
+  /// "/meshes/0/base_map/3", "/scene/nodes/2", "/scene/foreign/1", "/unknown/0" …
+  XmlPlace find(std::string_view path) const;
+
+  // For the reader, which notes each element on the way.
+
+  /// An element inside the one with the number `parent`, the root first; returns its number.
+  /// ordinal  among its siblings of that name
+  Index add(Index parent, const char* name, std::size_t ordinal, std::uint32_t line);
+  /// The element is the part with that path; the first one stays.
+  void name(std::string path, Index element);
+  /// The elements for the items of the list with that path.
+  std::vector<Index>& items(std::string path);
+
+ private:
+  struct Element {
+    Index parent, ordinal;
+    std::uint32_t line;
+    const char* name;
+  };
+  XmlPlace place_of(Index element, std::optional<std::uint32_t> entry) const;
+
+  std::vector<Element> elements_;
+  std::map<std::string, Index, std::less<>> parts_;
+  std::map<std::string, std::vector<Index>, std::less<>> items_;
 };
 
 /// Writes a whole document. The same strips give the same bytes, and read_xml gives the same
@@ -37,9 +67,9 @@ Bytes write_xml(const ProgressiveStrips& strips);
 
 /// Reads a document; what it returns satisfies `check` (formats/pstrip/payload/check.h).
 ///
-/// locations  when not null, filled with the line of each part
-/// errors     truncated, corrupt, over_limit, unsupported; the path is the line, then the element
-///            or the part of the model; the offset is that of the byte or of the line's start
+/// locations  when not null, filled with the place of each part
+/// errors     truncated, corrupt, over_limit, unsupported, each with its fault; the path is the
+///            line, then the element; the offset is that of the byte or of the line's start
 /// cost       O(document); peak memory about 5 times the document, bounded by
 ///            Limits::memory_bytes before anything is built
 Result<ProgressiveStrips> read_xml(ByteView document, const Limits& limits = {},

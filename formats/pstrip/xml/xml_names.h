@@ -19,18 +19,23 @@ static_assert(kXmlVersion.front() - '0' == kXmlVersionMajor);
 inline constexpr std::array<std::string_view, 2> kEncodingNames = {"naive", "offset"};
 inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "optimal"};
 inline constexpr std::array<std::string_view, 3> kFaceKindNames = {"polygons", "lines", "points"};
+inline constexpr std::array<std::string_view, 8> kTypeNames = {"i8",  "u8",  "i16", "u16",
+                                                               "i32", "u32", "f32", "f64"};
+/// How the data of a foreign entry is written.
+enum class ForeignForm : std::uint8_t { text, base64 };
+inline constexpr std::array<std::string_view, 2> kFormNames = {"text", "base64"};
 /// From kSameAsMinus2 to kRestart.
 inline constexpr std::array<std::string_view, 5> kMarkerNames = {"R-2", "R-1", "R+1", "R+2", "|"};
+inline constexpr const char* kRootName = "pstrips";
 inline constexpr std::string_view kDigestAlgorithm = "SHA-256";
 
-inline std::string_view name_of(MapEncoding v) {
-  return kEncodingNames[static_cast<std::size_t>(v)];
-}
-inline std::string_view name_of(Placement v) {
-  return kPlacementNames[static_cast<std::size_t>(v)];
-}
-inline std::string_view name_of(FaceKind v) { return kFaceKindNames[static_cast<std::size_t>(v)]; }
 /// Precondition: !is_wedge(entry).
 inline std::string_view name_of_marker(Index entry) { return kMarkerNames[entry - kSameAsMinus2]; }
+
+/// What a document holds, as far as Limits bounds it.
+struct XmlTotals {
+  std::uint64_t vertices = 0, wedges = 0;
+  std::uint64_t corners = 0;  ///< of faces, and index-map entries
+};
 
 }  // namespace pstrips::inline formats

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <vector>
 
-#include "formats/pstrip/xml/xml_fault.h"
+#include "core/fault_list.h"
 #include "formats/pstrip/xml/xml_text.h"
 
 namespace pstrips::inline formats {

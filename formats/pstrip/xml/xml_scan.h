@@ -13,9 +13,9 @@ struct XmlExtent {
   std::uint64_t elements = 0, attributes = 0, texts = 0;
 };
 
-/// Walks the markup of a whole document before a DOM is built of it, since the DOM builder cannot
-/// tell an early end from an error, knows no byte offsets, takes some documents that are not well
-/// formed, and must not be given one that is too deep or too large.
+/// Walks the markup of a whole document before a DOM is built of it. The DOM builder answers an
+/// early end like any other error, knows no byte offsets and takes some documents that are not
+/// well formed; a document that is too deep or too large exhausts it.
 ///
 /// Holds afterwards: UTF-8 of characters that XML 1.0 allows; one root; tags match; attributes are
 /// quoted; entities are the five of XML or character references; no DTD, no processing
