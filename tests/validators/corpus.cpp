@@ -5,6 +5,7 @@
 #include "tests/validators/edits.h"
 #include "tests/validators/samples.h"
 #include "validators/rules.h"
+#include "validators/validate.h"
 
 namespace pstrips::test {
 
@@ -28,6 +29,21 @@ std::vector<CorpusFile> invalid_corpus() {
   std::vector<CorpusFile> out;
   for (const std::span<const Case> cases : {kContainerCases, kModelCases, kXmlCases})
     for (const Case& c : cases) out.push_back({c.name, c.make()});
+  return out;
+}
+
+std::string report_text(const CorpusFile& file) {
+  const Report report = validate(file.bytes);
+  std::string out(name_of(report.verdict()));
+  out.push_back('\n');
+  for (const Finding& finding : report.findings()) {
+    const bool located = finding.offset != kNoOffset;
+    out.append("\n").append(finding.code).append(" ").append(name_of(finding.severity));
+    out.append(" ").append(finding.clause).append("\n");
+    out.append("byte ").append(located ? std::to_string(finding.offset) : "unknown");
+    out.append(finding.path.empty() ? "" : ": ").append(finding.path).append("\n");
+    out.append(finding.message).append("\n");
+  }
   return out;
 }
 

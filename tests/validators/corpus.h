@@ -19,6 +19,9 @@ std::vector<CorpusFile> valid_corpus();
 /// For each rule at least one file that breaks it and no other. Deterministic.
 std::vector<CorpusFile> invalid_corpus();
 
+/// What the validator says of the file: the verdict, then the findings with all their members.
+std::string report_text(const CorpusFile& file);
+
 /// spec/rules.md as the rules and the corpus make it.
 std::string current_rules_page();
 

@@ -1,4 +1,5 @@
-// Writes tests/data/valid, tests/data/invalid and spec/rules.md anew:
+// Writes tests/data/valid, tests/data/invalid, tests/data/reports and spec/rules.md anew, to be
+// reviewed as a diff:
 //   validators.make_corpus SOURCE_DIRECTORY
 
 #include <cstdio>
@@ -29,6 +30,18 @@ bool write_all(const std::filesystem::path& folder,
   return true;
 }
 
+/// What the validator says of each file.
+std::vector<pstrips::test::CorpusFile> reports_of(
+    const std::vector<pstrips::test::CorpusFile>& files) {
+  std::vector<pstrips::test::CorpusFile> out;
+  for (const pstrips::test::CorpusFile& file : files) {
+    const std::string text = pstrips::test::report_text(file);
+    const pstrips::ByteView bytes = pstrips::as_bytes(text);
+    out.push_back({file.name + ".txt", pstrips::Bytes(bytes.begin(), bytes.end())});
+  }
+  return out;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,8 +51,10 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path source = argv[1];
   const std::string page = pstrips::test::current_rules_page();
+  const std::vector<pstrips::test::CorpusFile> invalid = pstrips::test::invalid_corpus();
   return write_all(source / "tests/data/valid", pstrips::test::valid_corpus()) &&
-                 write_all(source / "tests/data/invalid", pstrips::test::invalid_corpus()) &&
+                 write_all(source / "tests/data/invalid", invalid) &&
+                 write_all(source / "tests/data/reports", reports_of(invalid)) &&
                  write(source / "spec/rules.md", pstrips::as_bytes(page))
              ? 0
              : 2;

@@ -22,8 +22,8 @@ ProgressiveStrips symbols();
 /// The same with an attribute of each face.
 ProgressiveStrips numbered_faces();
 
-/// Several wedges a vertex, optimal placement, three groups, a polygon, a line, face attributes, the
-/// original order and a digest.
+/// Several wedges a vertex, optimal placement, three groups, a polygon, a line, face attributes,
+/// the original order and a digest.
 ProgressiveStrips seam();
 
 /// The same without faces, order and digest.
