@@ -1,9 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace pstrips::inline core {
+
+/// Bytes of the UTF-8 character that the text begins with: in the shortest form, no surrogate, at
+/// most U+10FFFF. 0 when there is none, so for an empty text, too. [RFC3629 §4]
+std::size_t utf8_length(std::string_view text);
+
+/// Where the text stops being UTF-8; its size when it never does.
+std::size_t first_not_utf8(std::string_view text);
+
+inline bool is_utf8(std::string_view text) { return first_not_utf8(text) == text.size(); }
 
 /// The text without the byte order mark that some programs put in front of UTF-8.
 constexpr std::string_view without_utf8_mark(std::string_view text) {
@@ -12,12 +22,7 @@ constexpr std::string_view without_utf8_mark(std::string_view text) {
   return text;
 }
 
-/// ASCII letters to lower case, all else as it is.
-inline std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
+/// ASCII letters in lower case, all else as it is.
+std::string lower_case(std::string_view text);
 
 }  // namespace pstrips::inline core

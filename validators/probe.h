@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/fault_list.h"
+#include "core/text.h"
 #include "formats/pstrip/payload/layout.h"
-#include "validators/utf8.h"
 
 namespace pstrips::inline validators {
 

@@ -3,46 +3,16 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/text.h"
 #include "formats/obj/numbers.h"
 #include "formats/obj/obj.h"
 
 namespace pstrips::inline formats::obj {
 namespace {
 
-/// The length of the well-formed UTF-8 sequence at the start of `text`, else 0. [RFC3629 §4]
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
-  const std::uint8_t lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead < 0xc2   ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                             : lead < 0xf5 ? 4
-                                           : 0;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if (byte(i) >> 6 != 2) return 0;
-  const bool too_long = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
-  const bool surrogate = lead == 0xed && byte(1) > 0x9f;
-  const bool too_large = lead == 0xf4 && byte(1) > 0x8f;
-  return too_long || surrogate || too_large ? 0 : length;
-}
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
-}
-
 bool ends_in_mtl(std::string_view word) {
-  constexpr std::string_view kExtension = ".mtl";
-  if (word.size() < kExtension.size()) return false;
-  return std::ranges::equal(
-      word.substr(word.size() - kExtension.size()), kExtension,
-      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+  constexpr std::size_t kLength = 4;
+  return word.size() >= kLength && lower_case(word.substr(word.size() - kLength)) == ".mtl";
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "core/text.h"
+
 namespace pstrips::inline formats::ply {
 namespace {
 
@@ -25,19 +27,12 @@ constexpr BitsOf<T> kQuietBit = (kMantissaMask<T> + 1) >> 1;
 template <class T>
 constexpr BitsOf<T> kInfinity = static_cast<BitsOf<T>>(~kSignBit<T> & ~kMantissaMask<T>);
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
 /// The magnitude's bits of "inf", "nan", "nan(0x…)" and what Microsoft's library once printed.
 template <class T>
 std::optional<BitsOf<T>> not_finite(std::string_view token) {
   // Longer ones are none of these; the cap keeps a huge token from being copied.
   if (token.size() > kMaxNumberChars) return std::nullopt;
-  const std::string word = lower(token);
+  const std::string word = lower_case(token);
   if (word == "inf" || word == "infinity" || word == "1.#inf") return kInfinity<T>;
   if (word == "nan" || word == "1.#qnan" || word == "1.#ind" || word == "1.#snan")
     return kInfinity<T> | kQuietBit<T>;
@@ -112,7 +107,7 @@ bool may_start_number(std::string_view token) {
   if (token.size() <= 1000 && parse_real(std::string(token) + '0', ignored)) return true;
   if (token[0] == '-' || token[0] == '+') token.remove_prefix(1);
   if (token.size() > kMaxNumberChars) return false;
-  const std::string word = lower(token);
+  const std::string word = lower_case(token);
   constexpr std::string_view kWords[] = {"inf",     "infinity", "nan(0x", "1.#inf",
                                          "1.#qnan", "1.#ind",   "1.#snan"};
   if (std::ranges::any_of(kWords, [&](std::string_view w) { return w.starts_with(word); }))

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/numbers.h"
+#include "core/text.h"
 
 namespace pstrips::inline formats {
 namespace {
@@ -32,10 +33,9 @@ std::size_t parse_point(std::string_view line, double (&point)[3]) {
 }  // namespace
 
 Result<Model> read_xyz(ByteView file, const Limits& limits) {
-  constexpr std::string_view kUtf8Mark = "\xef\xbb\xbf";
   const std::string_view text = as_text(file);
   const char line_end = text.find('\n') == text.npos ? '\r' : '\n';
-  std::size_t at = text.starts_with(kUtf8Mark) ? kUtf8Mark.size() : 0;
+  std::size_t at = text.size() - without_utf8_mark(text).size();
   std::uint64_t points = 0;
   std::optional<Error> before_points;  // at the first line of something else
   Bytes data;

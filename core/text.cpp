@@ -1,12 +1,12 @@
-#include "validators/utf8.h"
+#include "core/text.h"
 
+#include <algorithm>
 #include <cstdint>
 
-namespace pstrips::inline validators {
-namespace {
+namespace pstrips::inline core {
 
-/// Bytes of the character at the front of `text`, 0 when there is none. [RFC 3629 §4]
-std::size_t character_bytes(std::string_view text) {
+std::size_t utf8_length(std::string_view text) {
+  if (text.empty()) return 0;
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(0);
   if (lead < 0x80) return 1;
@@ -21,16 +21,22 @@ std::size_t character_bytes(std::string_view text) {
   return size;
 }
 
-}  // namespace
-
 std::size_t first_not_utf8(std::string_view text) {
   std::size_t at = 0;
   while (at < text.size()) {
-    const std::size_t size = character_bytes(text.substr(at));
+    const std::size_t size = utf8_length(text.substr(at));
     if (size == 0) return at;
     at += size;
   }
   return text.size();
 }
 
-}  // namespace pstrips::inline validators
+std::string lower_case(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return out;
+}
+
+}  // namespace pstrips::inline core
