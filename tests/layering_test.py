@@ -32,7 +32,7 @@ THIRD_PARTY = {
     "zlib.h": {"formats/pstrip/container"},
 }
 # Headers that cannot do without.
-IN_HEADERS = {("core/result.h", "tl/")}
+IN_HEADERS = {("core/result.h", "tl/"), ("formats/gltf/json.h", "nlohmann/")}
 
 SYSTEM = {"fcntl.h", "malloc.h", "unistd.h", "sys/mman.h", "sys/stat.h"}
 

@@ -1,43 +1,14 @@
 #include "formats/gltf/container.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+
+#include "core/base64.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x46546c67, kJson = 0x4e4f534a, kBin = 0x004e4942;
-constexpr std::string_view kDigits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-constexpr std::array<std::int8_t, 256> digit_values() {
-  std::array<std::int8_t, 256> values{};
-  values.fill(-1);
-  for (std::size_t i = 0; i < kDigits.size(); ++i)
-    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
-  return values;
-}
-
-Result<Bytes> decode_base64(std::string_view text) {
-  static constexpr auto kValues = digit_values();
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  if (text.size() % 4 == 1) return fail(ErrorCode::corrupt, "base64 text of impossible length");
-  Bytes out(text.size() / 4 * 3 + (text.size() % 4 * 3) / 4);
-  std::uint32_t bits = 0;
-  int held = 0;
-  std::size_t n = 0;
-  for (const char c : text) {
-    const int value = kValues[static_cast<unsigned char>(c)];
-    if (value < 0) return fail(ErrorCode::corrupt, "not a base64 digit");
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    held += 6;
-    if (held < 8) continue;
-    held -= 8;
-    out[n++] = static_cast<std::byte>(bits >> held);
-  }
-  return out;
-}
 
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -140,22 +111,9 @@ Result<DataUri> decode_data_uri(std::string_view uri) {
   if (!head.ends_with(kEncoding))
     return fail(ErrorCode::unsupported, "data URI in another encoding than base64");
   head.remove_suffix(kEncoding.size());
-  Result<Bytes> data = decode_base64(uri.substr(comma + 1));
-  if (!data) return tl::unexpected(std::move(data).error());
+  std::optional<Bytes> data = parse_base64(uri.substr(comma + 1), Base64::lenient);
+  if (!data) return fail(ErrorCode::corrupt, "data URI that is not base64");
   return DataUri{std::string(head.substr(0, head.find(';'))), std::move(*data)};
-}
-
-std::string base64(ByteView data) {
-  std::string out;
-  out.reserve((data.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < data.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, data.size() - i);
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (k < n ? std::to_integer<std::uint32_t>(data[i + k]) : 0);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
 }
 
 Result<std::string> decode_relative_uri(std::string_view uri) {

@@ -33,7 +33,6 @@ struct DataUri {
 inline bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
 /// errors  corrupt, unsupported when it is not base64. Precondition: is_data_uri(uri)
 Result<DataUri> decode_data_uri(std::string_view uri);
-std::string base64(ByteView data);
 
 /// The file that a relative URI names, percent-decoded.
 ///

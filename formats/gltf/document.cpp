@@ -1,146 +1,13 @@
 #include "formats/gltf/document.h"
 
 #include <algorithm>
-#include <array>
-#include <nlohmann/json.hpp>
-#include <optional>
+
+#include "formats/gltf/extensions/extension.h"
+#include "formats/gltf/json_cursor.h"
+#include "formats/gltf/nodes.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
-
-using nlohmann::json;
-
-/// A JSON value, where it stands, and the first failure of all reads from the document. Reads
-/// after a failure return defaults, so the code below reads in a straight line.
-class Cursor {
- public:
-  struct Shared {
-    std::optional<Error> error;
-    const Limits& limits;
-  };
-  Cursor(json& value, std::string path, Shared& shared)
-      : value_(value), path_(std::move(path)), shared_(shared) {}
-
-  void fail(ErrorCode code, std::string message) const {
-    if (!shared_.error) shared_.error = Error{code, std::move(message), kNoOffset, path_};
-  }
-  bool failed() const { return shared_.error.has_value(); }
-  json& value() const { return value_; }
-  bool has(const char* key) const { return value_.contains(key); }
-  Cursor operator[](const char* key) const { return {value_[key], path_ + '/' + key, shared_}; }
-
-  /// Calls `visit(element, i)` for each object of an array member, which may be absent.
-  template <class Visit>
-  void each(const char* key, Visit&& visit) const {
-    if (failed() || !has(key)) return;
-    const Cursor list = (*this)[key];
-    if (!list.value_.is_array()) return list.fail(ErrorCode::corrupt, "is not an array");
-    for (std::size_t i = 0; i < list.value_.size() && !failed(); ++i) {
-      const Cursor element(list.value_[i], list.path_ + '/' + std::to_string(i), shared_);
-      if (!element.value_.is_object()) return element.fail(ErrorCode::corrupt, "is not an object");
-      visit(element, i);
-    }
-  }
-  std::size_t length(const char* key) const {
-    return has(key) && value_[key].is_array() ? value_[key].size() : 0;
-  }
-  bool has_object(const char* key) const {
-    if (!has(key)) return false;
-    if (value_[key].is_object()) return true;
-    (*this)[key].fail(ErrorCode::corrupt, "is not an object");
-    return false;
-  }
-
-  std::uint64_t whole(const char* key, std::uint64_t absent = 0) const {
-    return has(key) ? (*this)[key].as_whole() : absent;
-  }
-  std::uint64_t required_whole(const char* key) const {
-    if (!has(key)) fail(ErrorCode::corrupt, std::string("misses member ") + key);
-    return whole(key);
-  }
-  /// An index below `size`, kNone when absent.
-  Index reference(const char* key, std::size_t size) const {
-    return has(key) ? (*this)[key].as_reference(size) : kNone;
-  }
-  Index as_reference(std::size_t size) const {
-    const std::uint64_t i = as_whole();
-    if (!failed() && i >= size) fail(ErrorCode::corrupt, "refers to nothing");
-    return failed() ? 0 : static_cast<Index>(i);
-  }
-  std::vector<Index> references(const char* key, std::size_t size) const {
-    std::vector<Index> out;
-    if (failed() || !has(key)) return out;
-    const Cursor list = (*this)[key];
-    if (!list.value_.is_array()) list.fail(ErrorCode::corrupt, "is not an array");
-    for (std::size_t i = 0; !failed() && i < list.value_.size(); ++i)
-      out.push_back(
-          Cursor(list.value_[i], list.path_ + '/' + std::to_string(i), shared_).as_reference(size));
-    return out;
-  }
-  bool flag(const char* key) const {
-    if (!has(key)) return false;
-    const Cursor member = (*this)[key];
-    if (!member.value_.is_boolean()) member.fail(ErrorCode::corrupt, "is not a boolean");
-    return !failed() && member.value_.get<bool>();
-  }
-  std::string text(const char* key) const { return has(key) ? (*this)[key].as_text() : ""; }
-  std::string as_text() const {
-    if (!value_.is_string()) {
-      fail(ErrorCode::corrupt, "is not a string");
-      return {};
-    }
-    const auto& string = value_.get_ref<const std::string&>();
-    if (string.size() > shared_.limits.string_bytes) {
-      fail(ErrorCode::over_limit, "string is too long");
-      return {};
-    }
-    return string;
-  }
-  /// Takes a string out of the document, however long: it may be a data URI.
-  std::string take_uri(const char* key) const {
-    if (!has(key)) return {};
-    if (!value_[key].is_string()) {
-      (*this)[key].fail(ErrorCode::corrupt, "is not a string");
-      return {};
-    }
-    return std::move(value_[key].get_ref<std::string&>());
-  }
-  void number(const char* key, double& out) const {
-    if (!has(key)) return;
-    const Cursor member = (*this)[key];
-    if (!member.value_.is_number()) return member.fail(ErrorCode::corrupt, "is not a number");
-    out = member.value_.get<double>();
-  }
-  template <std::size_t n>
-  bool numbers(const char* key, std::array<double, n>& out) const {
-    if (!has(key)) return false;
-    const Cursor list = (*this)[key];
-    const auto is_number = [](const json& x) { return x.is_number(); };
-    if (!list.value_.is_array() || list.value_.size() != n ||
-        !std::ranges::all_of(list.value_, is_number)) {
-      list.fail(ErrorCode::corrupt, "is not " + std::to_string(n) + " numbers");
-      return false;
-    }
-    for (std::size_t i = 0; i < n; ++i) out[i] = list.value_[i].template get<double>();
-    return true;
-  }
-
- private:
-  std::uint64_t as_whole() const {
-    if (value_.is_number_unsigned()) return value_.get<std::uint64_t>();
-    // JSON knows one kind of number: 3.0 is as whole as 3.
-    const double number = value_.is_number_float() ? value_.get<double>() : -1;
-    if (number >= 0 && number < 9e15 &&
-        number == static_cast<double>(static_cast<std::uint64_t>(number)))
-      return static_cast<std::uint64_t>(number);
-    fail(ErrorCode::corrupt, "is not a whole number");
-    return 0;
-  }
-
-  json& value_;
-  std::string path_;
-  Shared& shared_;
-};
 
 Result<json> parse_json(std::string_view text, std::uint64_t offset, std::uint32_t depth) {
   if (nests_deeper(text, depth)) return fail(ErrorCode::over_limit, "JSON nests too deep", offset);
@@ -157,24 +24,6 @@ Result<json> parse_json(std::string_view text, std::uint64_t offset, std::uint32
 }
 
 // ---- asset and extensions ----
-
-/// Required extensions that leave geometry alone or that we understand.
-bool is_known_extension(std::string_view name) {
-  constexpr std::string_view kPrefixes[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                            "KHR_lights_",    "EXT_lights_",  "MSFT_texture_"};
-  constexpr std::string_view kNames[] = {
-      kQuantization,           "EXT_mesh_gpu_instancing", "EXT_mesh_features",
-      "EXT_instance_features", "EXT_structural_metadata", "MSFT_lod",
-      "KHR_xmp_json_ld",       "KHR_techniques_webgl",    "KHR_animation_pointer",
-      "KHR_node_visibility",   "GOOGLE_texture_basis",    "CESIUM_RTC"};
-  return std::ranges::any_of(kPrefixes, [&](auto p) { return name.starts_with(p); }) ||
-         std::ranges::find(kNames, name) != std::end(kNames);
-}
-
-/// Extensions that restate geometry or speak of the order of its vertices in the file.
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
-constexpr std::string_view kMeshopt[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
-constexpr std::string_view kOrderBound[] = {"EXT_mesh_manifold", "CESIUM_primitive_outline"};
 
 void check_asset(const Cursor& root) {
   if (!root.has_object("asset"))
@@ -194,43 +43,44 @@ void check_required_extensions(const Cursor& root) {
   for (const json& name : list.value()) {
     if (!name.is_string()) return list.fail(ErrorCode::corrupt, "names an extension by no string");
     const auto& text = name.get_ref<const std::string&>();
-    if (!is_known_extension(text))
+    const Extension* extension = find_extension(text);
+    if (!extension || !extension->may_be_required)
       list.fail(ErrorCode::unsupported, "required extension " + text.substr(0, 100));
   }
 }
 
-/// Removes an extension from one object; true when it was there.
-bool remove_extension(json& object, std::string_view name) {
-  const auto extensions = object.find("extensions");
-  if (extensions == object.end() || !extensions->is_object()) return false;
-  if (extensions->erase(std::string(name)) == 0) return false;
-  if (extensions->empty()) object.erase("extensions");
-  return true;
+/// Has the table read the extensions of a view, a primitive or a mesh, and takes those out that are
+/// not kept.
+template <class Element>
+void read_extensions(const Cursor& in, Element& element, std::vector<std::string>& dropped) {
+  const auto extensions = in.value().find("extensions");
+  if (extensions == in.value().end() || !extensions->is_object()) return;
+  const std::size_t before = extensions->size();
+  for (const Extension* extension : gltf::extensions()) {
+    const auto at = extensions->find(extension->name);
+    if (at == extensions->end()) continue;
+    if constexpr (std::is_same_v<Element, View>)
+      if (extension->read_view) extension->read_view(*at, element);
+    if constexpr (std::is_same_v<Element, Primitive>)
+      if (extension->read_primitive) extension->read_primitive(*at, element);
+    if (extension->fate == Fate::kept) continue;
+    extensions->erase(at);
+    if (extension->fate == Fate::dropped &&
+        std::ranges::find(dropped, extension->name) == dropped.end())
+      dropped.emplace_back(extension->name);
+  }
+  if (extensions->empty() && before > 0) in.value().erase("extensions");
 }
 
-bool remove_meshopt(json& object) {
-  bool removed = false;
-  for (const std::string_view name : kMeshopt) removed |= remove_extension(object, name);
-  return removed;
-}
-
-void drop_order_bound(json& object, std::vector<std::string>& dropped) {
-  for (const std::string_view name : kOrderBound)
-    if (remove_extension(object, name) && std::ranges::find(dropped, name) == dropped.end())
-      dropped.emplace_back(name);
-}
-
-/// Takes the names of extensions that are gone out of a list, and the one that the writer adds
-/// when the types of the attributes ask for it.
-void forget_extensions(json& root, const char* key) {
+/// Takes the names of extensions that are not kept out of a list.
+void remove_names(json& root, const char* key) {
   const auto list = root.find(key);
   if (list == root.end() || !list->is_array()) return;
   json left = json::array();
   for (json& name : *list) {
-    const bool removed = name == kQuantization || name == kDraco ||
-                         std::ranges::find(kMeshopt, name) != std::end(kMeshopt) ||
-                         std::ranges::find(kOrderBound, name) != std::end(kOrderBound);
-    if (!removed) left.push_back(std::move(name));
+    const Extension* extension =
+        name.is_string() ? find_extension(name.get_ref<const std::string&>()) : nullptr;
+    if (!extension || extension->fate == Fate::kept) left.push_back(std::move(name));
   }
   if (left.empty())
     root.erase(list);
@@ -248,14 +98,14 @@ Buffer read_buffer(const Cursor& in) {
   return out;
 }
 
-View read_view(const Cursor& in, std::size_t buffers) {
+View read_view(const Cursor& in, std::size_t buffers, std::vector<std::string>& dropped) {
   View out;
   in.required_whole("buffer");
   out.buffer = in.reference("buffer", buffers);
   out.offset = in.whole("byteOffset");
   out.bytes = in.required_whole("byteLength");
   out.stride = in.whole("byteStride");
-  out.compressed = remove_meshopt(in.value());
+  read_extensions(in, out, dropped);
   return out;
 }
 
@@ -350,8 +200,7 @@ Primitive read_primitive(const Cursor& in, const Document& document, std::size_t
   const std::uint64_t mode = in.whole("mode", 4);
   if (mode > 6) in.fail(ErrorCode::corrupt, "unknown primitive mode");
   out.mode = static_cast<Mode>(mode > 6 ? 0 : mode);
-  out.compressed = remove_extension(in.value(), kDraco);
-  drop_order_bound(in.value(), dropped);
+  read_extensions(in, out, dropped);
   if (!out.has_position()) return out;
   for (const char* key : {"attributes", "targets", "indices", "material", "mode"})
     in.value().erase(key);
@@ -366,7 +215,7 @@ GltfMesh read_mesh(const Cursor& in, const Document& document, std::size_t mater
   in.each("primitives", [&](const Cursor& primitive, std::size_t) {
     out.primitives.push_back(read_primitive(primitive, document, materials, dropped));
   });
-  drop_order_bound(in.value(), dropped);
+  read_extensions(in, out, dropped);
   if (std::ranges::any_of(out.primitives, &Primitive::has_position)) in.value().erase("name");
   return out;
 }
@@ -385,8 +234,9 @@ Index read_texture_source(const Cursor& texture, std::size_t images) {
   if (texture.has("source") || !texture.has_object("extensions"))
     return texture.reference("source", images);
   const Cursor extensions = texture["extensions"];
-  for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif"})
-    if (extensions.has_object(name)) return extensions[name].reference("source", images);
+  for (const Extension* extension : gltf::extensions())
+    if (extension->holds_texture_source && extensions.has_object(extension->name))
+      return extensions[extension->name].reference("source", images);
   return kNone;
 }
 
@@ -418,107 +268,6 @@ Image read_image(const Cursor& in, std::size_t views, Index& view) {
   for (const char* key : {"name", "mimeType", "bufferView", "uri"}) in.value().erase(key);
   return out;
 }
-
-using Matrix = std::array<double, 16>;
-
-Matrix matrix_of(const std::array<double, 3>& t, const std::array<double, 4>& q,
-                 const std::array<double, 3>& s) {
-  const auto [x, y, z, w] = q;
-  return {s[0] * (1 - 2 * (y * y + z * z)),
-          s[0] * 2 * (x * y + z * w),
-          s[0] * 2 * (x * z - y * w),
-          0,
-          s[1] * 2 * (x * y - z * w),
-          s[1] * (1 - 2 * (x * x + z * z)),
-          s[1] * 2 * (y * z + x * w),
-          0,
-          s[2] * 2 * (x * z + y * w),
-          s[2] * 2 * (y * z - x * w),
-          s[2] * (1 - 2 * (x * x + y * y)),
-          0,
-          t[0],
-          t[1],
-          t[2],
-          1};
-}
-
-Node read_node(const Cursor& in, std::size_t meshes) {
-  Node out;
-  out.name = in.text("name");
-  const Index mesh = in.reference("mesh", meshes);
-  if (mesh != kNone) out.meshes.push_back(mesh);
-  if (in.numbers("matrix", out.matrix)) return out;
-  std::array<double, 3> translation{0, 0, 0}, scale{1, 1, 1};
-  std::array<double, 4> rotation{0, 0, 0, 1};
-  const bool moved = in.numbers("translation", translation);
-  const bool turned = in.numbers("rotation", rotation);
-  if (in.numbers("scale", scale) || moved || turned)
-    out.matrix = matrix_of(translation, rotation, scale);
-  return out;
-}
-
-/// Brings parents before children, each subtree in one piece, roots and children in file order.
-/// glTF wants a tree; files with several parents a node exist, and such a node then stands there
-/// once a parent.
-class NodeReader {
- public:
-  NodeReader(const Cursor& root, std::size_t meshes, const Limits& limits)
-      : root_(root),
-        limits_(limits),
-        children_(root.length("nodes")),
-        state_(root.length("nodes")) {
-    std::vector<bool> has_parent(children_.size());
-    root.each("nodes", [&](const Cursor& in, std::size_t i) {
-      nodes_.push_back(read_node(in, meshes));
-      children_[i] = in.references("children", children_.size());
-      for (const Index child : children_[i]) has_parent[child] = true;
-    });
-    for (Index i = 0; i < children_.size() && !root.failed(); ++i)
-      if (!has_parent[i]) place_subtree(i);
-    if (root.failed()) return;
-    if (std::ranges::find(state_, State::unseen) != state_.end())
-      root["nodes"].fail(ErrorCode::corrupt, "nodes form a cycle");
-  }
-  std::vector<Node> take() && { return std::move(placed_); }
-
- private:
-  enum class State : std::uint8_t { unseen, on_path, left };
-  struct Visit {
-    Index node, place;
-    std::size_t next_child = 0;
-  };
-
-  void place(Index i, Index parent, std::vector<Visit>& path) {
-    if (state_[i] == State::on_path)
-      return root_["nodes"].fail(ErrorCode::corrupt, "nodes form a cycle");
-    if (placed_.size() >= limits_.meshes)
-      return root_["nodes"].fail(ErrorCode::over_limit, "too many nodes");
-    state_[i] = State::on_path;
-    path.push_back({i, static_cast<Index>(placed_.size())});
-    placed_.push_back(nodes_[i]);
-    placed_.back().parent = parent;
-  }
-  void place_subtree(Index top) {
-    std::vector<Visit> path;
-    place(top, kNone, path);
-    while (!path.empty() && !root_.failed()) {
-      Visit& visit = path.back();
-      if (visit.next_child == children_[visit.node].size()) {
-        state_[visit.node] = State::left;
-        path.pop_back();
-      } else {
-        const Index child = children_[visit.node][visit.next_child++];
-        place(child, visit.place, path);
-      }
-    }
-  }
-
-  const Cursor& root_;
-  const Limits& limits_;
-  std::vector<Node> nodes_, placed_;
-  std::vector<std::vector<Index>> children_;
-  std::vector<State> state_;
-};
 
 void check_lengths(const Cursor& root, const Limits& limits) {
   for (const char* key : {"meshes", "materials", "images", "nodes", "textures"})
@@ -562,7 +311,7 @@ Result<Document> parse(std::string_view text, std::uint64_t json_offset, const L
   root.each("buffers",
             [&](const Cursor& in, std::size_t) { out.buffers.push_back(read_buffer(in)); });
   root.each("bufferViews", [&](const Cursor& in, std::size_t) {
-    out.views.push_back(read_view(in, out.buffers.size()));
+    out.views.push_back(read_view(in, out.buffers.size(), dropped));
   });
   root.each("accessors", [&](const Cursor& in, std::size_t) {
     out.accessors.push_back(read_accessor(in, out.views.size()));
@@ -581,12 +330,12 @@ Result<Document> parse(std::string_view text, std::uint64_t json_offset, const L
     out.meshes.push_back(read_mesh(in, out, out.materials.size(), dropped));
   });
   check_targets(root, out.meshes);
-  out.nodes = NodeReader(root, out.meshes.size(), limits).take();
+  out.nodes = read_nodes(root, out.meshes.size(), limits);
   if (shared.error) return tl::unexpected(std::move(*shared.error));
 
   root.value().erase("buffers");
-  forget_extensions(root.value(), "extensionsUsed");
-  forget_extensions(root.value(), "extensionsRequired");
+  remove_names(root.value(), "extensionsUsed");
+  remove_names(root.value(), "extensionsRequired");
   const std::string skeleton = root.value().dump();
   *parsed = nullptr;
   if (Result<void> kept = keep_rest(out, skeleton); !kept) return tl::unexpected(kept.error());

@@ -116,8 +116,6 @@ Result<Document> parse(std::string_view json, std::uint64_t json_offset, const L
 /// still numbered as in the file. [keep.cpp]
 Result<void> keep_rest(Document& document, std::string_view skeleton);
 
-inline constexpr std::string_view kQuantization = "KHR_mesh_quantization";
-
 inline constexpr std::string_view kRestKey = "gltf/json";  ///< Document::rest
 inline constexpr std::string_view kBinKey = "gltf/bin";    ///< the bytes of Document::kept
 inline constexpr std::string_view kPrimitivesKey = "gltf/primitives";  ///< [primitives.h]

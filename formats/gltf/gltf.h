@@ -25,10 +25,9 @@ namespace pstrips::inline formats {
 ///             are its joints and go), LINES two-corner polylines, LINE_STRIP and LINE_LOOP one
 ///             polyline (a loop ends at its first corner), POINTS one-corner faces.
 /// Scene       Nodes (all of them, parents first; one with several parents once for each),
-/// materials and images in glTF's order; embedded
-///             images as bytes, others as the URI the file wrote. The rest of the asset (cameras,
-///             skins, animations, extensions, extras …) goes to the foreign keys "gltf/…", from
-///             which write_gltf restores it.
+///             materials and images in glTF's order; embedded images as bytes, others as the URI
+///             that the file wrote. The rest of the asset (cameras, skins, animations, extensions,
+///             extras …) goes to the foreign keys "gltf/…", from which write_gltf restores it.
 ///
 /// `dropped`, when given, receives what the model cannot hold, one phrase each: extensions that
 /// speak of the vertex order of the file (they are left out), indices beyond whole faces.

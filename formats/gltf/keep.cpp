@@ -4,14 +4,13 @@
 // gives the same bytes again.
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "formats/gltf/document.h"
+#include "formats/gltf/extensions/extension.h"
+#include "formats/gltf/json.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
-
-using nlohmann::json;
 
 /// Accessors of one use share a view: a view must not mix inverse bind matrices with other data.
 enum class Use : std::uint8_t { animation, skin, other, vertices, indices, none };
@@ -80,9 +79,8 @@ void find_in_meshes(json& root, References& out) {
     }
 }
 
-/// The members by which extensions refer to accessors and views: by common convention, or as
-/// the named extension says.
-void find_in_extension(const std::string& extension, const std::string& parent, json& value,
+/// References of an extension, as the table says or by the convention that most of them follow.
+void find_in_extension(const Extension* extension, const std::string& parent, json& value,
                        References& out) {
   if (value.is_array()) {
     for (json& element : value) find_in_extension(extension, parent, element, out);
@@ -90,16 +88,16 @@ void find_in_extension(const std::string& extension, const std::string& parent, 
   }
   if (!value.is_object()) return;
   for (auto& [key, member] : value.items()) {
-    const bool instance = extension == "EXT_mesh_gpu_instancing" && parent == "attributes";
-    const bool table = extension == "EXT_structural_metadata" &&
-                       (key == "values" || key == "arrayOffsets" || key == "stringOffsets");
     if (key == "extras") continue;
-    if (member.is_structured())
+    if (member.is_structured()) {
       find_in_extension(extension, key, member, out);
-    else if (instance || key == "accessor")
-      out.accessor(member, Use::other);
-    else if (table || key == "bufferView" || key.ends_with("BufferView"))
-      out.view(member);
+      continue;
+    }
+    auto reference = Reference::none;
+    if (extension && extension->reference) reference = extension->reference(parent, key);
+    if (reference == Reference::none) reference = conventional_reference(key);
+    if (reference == Reference::accessor) out.accessor(member, Use::other);
+    if (reference == Reference::view) out.view(member);
   }
 }
 
@@ -110,7 +108,8 @@ void find_extensions(json& value, References& out) {
   for (auto& [key, member] : value.items()) {
     if (key == "extras" || !member.is_structured()) continue;
     if (key == "extensions" && member.is_object())
-      for (auto& [name, extension] : member.items()) find_in_extension(name, "", extension, out);
+      for (auto& [name, extension] : member.items())
+        find_in_extension(find_extension(name), "", extension, out);
     else
       find_extensions(member, out);
   }

@@ -2,6 +2,7 @@
 #include <cassert>
 
 #include "formats/gltf/container.h"
+#include "formats/gltf/image_type.h"
 #include "formats/gltf/primitives.h"
 
 namespace pstrips::inline formats {
@@ -9,18 +10,6 @@ namespace gltf {
 namespace {
 
 std::string image_pointer(std::size_t i) { return "/images/" + std::to_string(i); }
-
-std::string_view mime_type_of(ByteView image) {
-  const std::string_view text = as_text(image);
-  using namespace std::string_view_literals;
-  if (text.starts_with("\x89PNG\r\n\x1a\n"sv)) return "image/png";
-  if (text.starts_with("\xff\xd8\xff"sv)) return "image/jpeg";
-  if (text.starts_with("\xabKTX 20\xbb"sv)) return "image/ktx2";
-  if (text.starts_with("RIFF"sv) &&
-      text.substr(std::min<std::size_t>(8, text.size())).starts_with("WEBP"sv))
-    return "image/webp";
-  return "";
-}
 
 /// Moves embedded image files into the images.
 Result<void> read_images(Data& data, Document& document, Budget& budget) {

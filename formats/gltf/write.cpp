@@ -2,114 +2,22 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base64.h"
+#include "formats/gltf/asset_buffer.h"
 #include "formats/gltf/container.h"
-#include "formats/gltf/fit.h"
-#include "formats/gltf/primitives.h"
+#include "formats/gltf/extensions/extension.h"
+#include "formats/gltf/image_type.h"
+#include "formats/gltf/kept_asset.h"
 #include "formats/gltf/topology.h"
 
 namespace pstrips::inline formats {
 namespace gltf {
 namespace {
 
-using nlohmann::json;
-
-ByteView find_foreign(const Scene& scene, std::string_view key) {
-  const auto found = std::ranges::find(scene.foreign, key, &Foreign::key);
-  return found == scene.foreign.end() ? ByteView{} : ByteView(found->data);
-}
-
-bool is_list_of(const json& root, const char* key, std::size_t count) {
-  const auto list = root.find(key);
-  if (list == root.end()) return count == 0;
-  return list->is_array() && list->size() == count &&
-         std::ranges::all_of(*list, [](const json& element) { return element.is_object(); });
-}
-
-/// A list of objects of any length, or nothing.
-bool is_list(const json& root, const char* key) {
-  const auto list = root.find(key);
-  return list == root.end() || (list->is_array() && is_list_of(root, key, list->size()));
-}
-
-/// The asset as it was read, when it still speaks of this model.
-struct Kept {
-  json root;
-  PrimitiveMap map;
-};
-
-std::optional<Kept> find_kept(const Model& model) {
-  const std::string_view text = as_text(find_foreign(model.scene, kRestKey));
-  auto map = PrimitiveMap::read(find_foreign(model.scene, kPrimitivesKey));
-  if (text.empty() || !map || !map->fits(model.meshes)) return std::nullopt;
-  if (nests_deeper(text, Limits{}.xml_depth)) return std::nullopt;
-  Kept out{json::parse(text, nullptr, false), std::move(*map)};
-  const json& root = out.root;
-  if (!root.is_object() || !is_list_of(root, "meshes", out.map.meshes.size()) ||
-      !is_list_of(root, "materials", model.scene.materials.size()) ||
-      !is_list_of(root, "images", model.scene.images.size()) || !is_list(root, "accessors") ||
-      !is_list(root, "bufferViews"))
-    return std::nullopt;
-  for (std::size_t m = 0; m < out.map.meshes.size(); ++m)
-    if (!is_list_of(root["meshes"][m], "primitives", out.map.meshes[m].size())) return std::nullopt;
-  std::uint64_t targets = 0;
-  for (const PrimitiveMap::Layout& layout : out.map.layouts) targets += layout.targets;
-  return targets <= kMaxTargets ? std::optional(std::move(out)) : std::nullopt;
-}
-
-int component_type(ComponentType type) {
-  switch (type) {
-    case ComponentType::i8:
-      return 5120;
-    case ComponentType::u8:
-      return 5121;
-    case ComponentType::i16:
-      return 5122;
-    case ComponentType::u16:
-      return 5123;
-    case ComponentType::u32:
-      return 5125;
-    default:
-      return 5126;
-  }
-}
-
-json number(double value) {
-  if (value == std::floor(value) && std::abs(value) < 1e15)
-    return value == 0 ? json(0) : json(static_cast<std::int64_t>(value));
-  return value;
-}
-
-/// Adds min and max over the finite values; both are 0 where there is none.
-void add_bounds(json& accessor, Attribute attribute) {
-  attribute.normalized = false;  // bounds are of the stored numbers
-  accessor["min"] = json::array();
-  accessor["max"] = json::array();
-  for (std::size_t c = 0; c < attribute.count; ++c) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    const bool is_float = attribute.type == ComponentType::f32;
-    const std::byte* at = attribute.data.data() + c * size_of(attribute.type);
-    for (std::size_t i = 0; i < attribute.elements(); ++i, at += attribute.element_bytes()) {
-      float single = 0;
-      if (is_float) std::memcpy(&single, at, sizeof single);
-      const double value = is_float ? single : component(attribute, i, c);
-      if (!std::isfinite(value)) continue;
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-    accessor["min"].push_back(number(low <= high ? low : 0));
-    accessor["max"].push_back(number(low <= high ? high : 0));
-  }
-}
-
-template <class T>
-std::vector<T> narrowed(const std::vector<Index>& indices) {
-  std::vector<T> out(indices.size());
-  std::ranges::transform(indices, out.begin(), [](Index i) { return static_cast<T>(i); });
-  return out;
+double finite_or(double value, double otherwise) {
+  return std::isfinite(value) ? value : otherwise;
 }
 
 /// About what a model's meshes take in the buffer.
@@ -122,42 +30,10 @@ std::size_t expected_bytes(const Model& model) {
   return bytes;
 }
 
-/// Elements at multiples of four bytes, as are the columns of matrices.
-Bytes aligned_elements(const Attribute& attribute, std::uint8_t rows, std::size_t& stride) {
-  const std::size_t column = size_of(attribute.type) * (rows == 0 ? attribute.count : rows);
-  const std::size_t padded = (column + 3) / 4 * 4;
-  stride = attribute.element_bytes() / column * padded;
-  Bytes out(attribute.elements() * stride);
-  const std::size_t columns = attribute.data.size() / column;
-  for (std::size_t k = 0; k < columns; ++k)
-    std::memcpy(out.data() + k * padded, attribute.data.data() + k * column, column);
-  return out;
-}
-
-/// Whether the MIME type, or without one the file's ending, is among those named.
-bool is_image_of(const Image& image, std::initializer_list<std::string_view> endings) {
-  const std::string& name = image.mime_type.empty() ? image.uri : image.mime_type;
-  const std::size_t dot = name.find_last_of("./");
-  std::string ending = dot == std::string::npos ? "" : name.substr(dot + 1);
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return std::ranges::find(endings, ending) != endings.end();
-}
-
-/// The extension by which a texture names an image that is neither PNG nor JPEG.
-const char* texture_extension(const Image& image) {
-  if (is_image_of(image, {"ktx2"})) return "KHR_texture_basisu";
-  return is_image_of(image, {"webp"}) ? "EXT_texture_webp" : nullptr;
-}
-
-double finite_or(double value, double otherwise) {
-  return std::isfinite(value) ? value : otherwise;
-}
-
 class AssetWriter {
  public:
   AssetWriter(const Model& model, const GltfWriteOptions& options)
-      : model_(model), options_(options), kept_(find_kept(model)) {
+      : model_(model), options_(options), kept_(find_kept_asset(model)) {
     const ByteView chunks = find_foreign(model.scene, kChunksKey);
     if (!chunks.empty() && !options.binary) dropped_.push_back("unknown chunks of the .glb file");
     if (!kept_ && !find_foreign(model.scene, kRestKey).empty())
@@ -165,13 +41,12 @@ class AssetWriter {
   }
 
   Result<GltfFiles> write() {
-    bin_.reserve(expected_bytes(model_));
+    buffer_.reserve(expected_bytes(model_));
     if (kept_) {
       root_ = std::move(kept_->root);
-      bin_.bytes(find_foreign(model_.scene, kBinKey));
-      bin_.align(4);
-      accessors_ = take_list("accessors");
-      views_ = take_list("bufferViews");
+      json views = take_list("bufferViews"), accessors = take_list("accessors");
+      buffer_.start_with(find_foreign(model_.scene, kBinKey), std::move(views),
+                         std::move(accessors));
       restore_meshes();
     } else {
       root_["asset"] = {{"version", "2.0"}, {"generator", "pstrips"}};
@@ -179,14 +54,13 @@ class AssetWriter {
       add_meshes_and_nodes();
     }
     add_images();
-    add_index_views();
-    if (quantized_) {
-      extensions_used_.emplace(kQuantization);
-      list_in("extensionsRequired").push_back(kQuantization);
-    }
-    for (const std::string& name : extensions_used_) list_in("extensionsUsed").push_back(name);
-    if (!accessors_.empty()) root_["accessors"] = std::move(accessors_);
-    if (!views_.empty()) root_["bufferViews"] = std::move(views_);
+    buffer_.add_index_views();
+    for (const std::string_view name : extensions_required_)
+      list_in("extensionsRequired").push_back(name);
+    for (const std::string_view name : extensions_used_) list_in("extensionsUsed").push_back(name);
+    if (json accessors = buffer_.take_accessors(); !accessors.empty())
+      root_["accessors"] = std::move(accessors);
+    if (json views = buffer_.take_views(); !views.empty()) root_["bufferViews"] = std::move(views);
     return finish();
   }
 
@@ -195,71 +69,6 @@ class AssetWriter {
     json list = root_.contains(key) ? std::move(root_[key]) : json::array();
     root_.erase(key);
     return list;
-  }
-
-  // ---- binary data ----
-
-  std::size_t add_view(ByteView bytes) {
-    bin_.align(4);
-    json view = {{"buffer", 0}, {"byteLength", bytes.size()}};
-    if (bin_.size() > 0) view["byteOffset"] = bin_.size();
-    bin_.bytes(bytes);
-    views_.push_back(std::move(view));
-    return views_.size() - 1;
-  }
-
-  std::size_t add_attribute(const Fitted& fitted) {
-    const Attribute& attribute = fitted.attribute();
-    json accessor = {{"componentType", component_type(attribute.type)},
-                     {"count", attribute.elements()},
-                     {"type", fitted.type}};
-    if (attribute.normalized) accessor["normalized"] = true;
-    if (fitted.needs_bounds()) add_bounds(accessor, attribute);
-    if (attribute.elements() > 0) {
-      std::size_t stride = attribute.element_bytes();
-      const bool is_aligned = fitted.rows == 0 && stride % 4 == 0;
-      const Bytes aligned = is_aligned ? Bytes{} : aligned_elements(attribute, fitted.rows, stride);
-      const std::size_t view = add_view(is_aligned ? attribute.data : aligned);
-      views_[view]["target"] = 34962;
-      if (!is_aligned) views_[view]["byteStride"] = stride;
-      accessor["bufferView"] = view;
-    }
-    quantized_ |= fitted.needs_quantization();
-    accessors_.push_back(std::move(accessor));
-    return accessors_.size() - 1;
-  }
-
-  /// An index type's largest value would mean a restart. [glTF 2.0 §3.7.2.1]
-  std::size_t add_indices(const std::vector<Index>& indices) {
-    const Index largest = indices.empty() ? 0 : *std::ranges::max_element(indices);
-    const ComponentType type = largest < 0xff     ? ComponentType::u8
-                               : largest < 0xffff ? ComponentType::u16
-                                                  : ComponentType::u32;
-    json accessor = {
-        {"componentType", component_type(type)}, {"count", indices.size()}, {"type", "SCALAR"}};
-    if (!indices.empty()) {
-      ByteWriter& stream = index_streams_[type];
-      if (stream.size() > 0) accessor["byteOffset"] = stream.size();
-      index_accessors_.emplace_back(accessors_.size(), type);
-      if (type == ComponentType::u8)
-        stream.array<std::uint8_t>(narrowed<std::uint8_t>(indices));
-      else if (type == ComponentType::u16)
-        stream.array<std::uint16_t>(narrowed<std::uint16_t>(indices));
-      else
-        stream.array<Index>(indices);
-    }
-    accessors_.push_back(std::move(accessor));
-    return accessors_.size() - 1;
-  }
-
-  void add_index_views() {
-    std::map<ComponentType, std::size_t> view;
-    for (const auto& [type, stream] : index_streams_) {
-      view[type] = add_view(stream.view());
-      views_[view[type]]["target"] = 34963;
-    }
-    for (const auto& [accessor, type] : index_accessors_)
-      accessors_[accessor]["bufferView"] = view[type];
   }
 
   // ---- meshes ----
@@ -275,7 +84,8 @@ class AssetWriter {
     std::vector<json> targets(fit.targets, json::object());
     bool has_targets = false;
     for (const Fitted& fitted : fit_attributes(model_.meshes[m], fit, dropped_)) {
-      const std::size_t accessor = add_attribute(fitted);
+      const std::size_t accessor = buffer_.add_attribute(fitted);
+      note_extensions(fitted);
       if (fitted.target == kNone) {
         out["attributes"][fitted.name] = accessor;
         continue;
@@ -288,9 +98,17 @@ class AssetWriter {
     return out;
   }
 
+  void note_extensions(const Fitted& attribute) {
+    for (const Extension* extension : extensions())
+      if (extension->writes_attribute && extension->writes_attribute(attribute)) {
+        extensions_used_.insert(extension->name);
+        extensions_required_.insert(extension->name);
+      }
+  }
+
   json make_primitive(const json& attributes, const IndexList& list, const Group& group) {
     json out = attributes;
-    out["indices"] = add_indices(list.indices);
+    out["indices"] = buffer_.add_indices(list.indices);
     if (list.mode != Mode::triangles) out["mode"] = static_cast<int>(list.mode);
     if (group.material < model_.scene.materials.size()) out["material"] = group.material;
     return out;
@@ -431,17 +249,20 @@ class AssetWriter {
       if (!material.name.empty()) out["name"] = material.name;
       root_["materials"].push_back(std::move(out));
     }
-    for (std::size_t i = 0; i < model_.scene.images.size(); ++i) {
-      json texture = json::object();
-      const char* extension = texture_extension(model_.scene.images[i]);
-      if (extension == nullptr) {
-        texture["source"] = i;
-      } else {
-        texture["extensions"][extension]["source"] = i;
-        extensions_used_.insert(extension);
+    for (std::size_t i = 0; i < model_.scene.images.size(); ++i)
+      root_["textures"].push_back(make_texture(i));
+  }
+
+  json make_texture(std::size_t image) {
+    json texture = json::object();
+    for (const Extension* extension : extensions())
+      if (extension->writes_image && extension->writes_image(model_.scene.images[image])) {
+        texture["extensions"][extension->name]["source"] = image;
+        extensions_used_.insert(extension->name);
+        return texture;
       }
-      root_["textures"].push_back(std::move(texture));
-    }
+    texture["source"] = image;
+    return texture;
   }
 
   void add_images() {
@@ -454,7 +275,7 @@ class AssetWriter {
       if (!image.name.empty()) out["name"] = image.name;
       if (!image.mime_type.empty()) out["mimeType"] = image.mime_type;
       if (!image.data.empty()) {
-        out["bufferView"] = add_view(image.data);
+        out["bufferView"] = buffer_.add_view(image.data);
       } else if (!image.uri.empty()) {
         std::string path = image.uri;
         if (!encoded) std::ranges::replace(path, '\\', '/');
@@ -475,10 +296,10 @@ class AssetWriter {
   }
 
   Result<GltfFiles> finish() {
-    if (bin_.size() > std::numeric_limits<std::uint32_t>::max())
+    if (buffer_.size() > std::numeric_limits<std::uint32_t>::max())
       return fail(ErrorCode::over_limit, "the buffer would reach 4 GiB");
     GltfFiles out;
-    Bytes buffer = std::move(bin_).take();
+    Bytes buffer = buffer_.take_bytes();
     if (!buffer.empty()) {
       json entry = {{"byteLength", buffer.size()}};
       if (!options_.binary)
@@ -505,13 +326,10 @@ class AssetWriter {
 
   const Model& model_;
   const GltfWriteOptions& options_;
-  std::optional<Kept> kept_;
-  json root_ = json::object(), accessors_ = json::array(), views_ = json::array();
-  ByteWriter bin_;
-  std::map<ComponentType, ByteWriter> index_streams_;
-  std::vector<std::pair<std::size_t, ComponentType>> index_accessors_;
-  bool quantized_ = false;
-  std::set<std::string> extensions_used_;  ///< those that the kept asset does not name
+  std::optional<KeptAsset> kept_;
+  json root_ = json::object();
+  AssetBuffer buffer_;
+  std::set<std::string_view> extensions_used_, extensions_required_;  ///< beside the kept ones
   std::vector<std::string> dropped_;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base64.h"
 #include "formats/gltf/container.h"
 #include "formats/gltf/gltf.h"
 
@@ -83,7 +84,7 @@ class Asset {
     std::string out = R"({"asset":{"version":"2.0"})";
     if (!buffer_.empty()) {
       out += R"(,"buffers":[{"byteLength":)" + std::to_string(buffer_.size());
-      if (embed) out += R"(,"uri":"data:;base64,)" + gltf::base64(buffer_) + '"';
+      if (embed) out += R"(,"uri":"data:;base64,)" + base64(buffer_) + '"';
       out += "}]";
     }
     if (!views_.empty()) out += R"(,"bufferViews":[)" + views_ + "]";
