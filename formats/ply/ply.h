@@ -11,9 +11,8 @@ namespace pstrips::inline formats {
 /// file     the whole file; nothing points into it afterwards
 /// returns  a model of one mesh; of none when the file has no vertex element
 /// cost     O(size); a header's promises are checked against the bytes before anything is allocated
-/// errors   truncated, corrupt, over_limit, unsupported, with the byte offset and, in the header
-/// and
-///          in ascii bodies, the line
+/// errors   truncated, corrupt, over_limit, unsupported, with the byte offset; in the header and in
+///          ascii bodies also with the line
 ///
 /// What becomes what:
 /// - x y z: POSITION in their common type, f64 when their types differ. Row i is vertex i; equal

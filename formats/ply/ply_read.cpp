@@ -9,6 +9,8 @@
 #include "formats/ply/ply_kept.h"
 #include "formats/ply/ply_layout.h"
 #include "formats/ply/ply_numbers.h"
+#include "formats/ply/ply_strips.h"
+#include "formats/ply/ply_textures.h"
 #include "formats/ply/ply_wedges.h"
 
 namespace pstrips::inline formats {
@@ -16,72 +18,6 @@ namespace ply {
 namespace {
 
 using Role = Layout::Role;
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-/// The name in "comment TextureFile NAME"; empty when it is no such remark.
-std::string_view texture_of(std::string_view remark) {
-  for (const std::string_view word : {"comment", "TextureFile"}) {
-    if (!remark.starts_with(word) || remark.size() == word.size() || !is_space(remark[word.size()]))
-      return {};
-    remark = trimmed(remark.substr(word.size()));
-  }
-  return remark;
-}
-
-/// Appends the triangles of strips: -1 restarts, every other triangle is turned, degenerate ones
-/// (that only steer the strip) are left out.
-class StripExpander {
- public:
-  StripExpander(FaceLists& faces, std::uint64_t vertices, std::uint64_t most_corners)
-      : faces_(faces), vertices_(vertices), most_corners_(most_corners) {}
-
-  /// Empty when all went well.
-  std::optional<Error> add(const ListColumn& strips, ComponentType type, std::uint64_t offset) {
-    return visit_type(type, [&](auto zero) -> std::optional<Error> {
-      using T = decltype(zero);
-      const std::byte* at = strips.values.data();
-      for (const std::uint32_t size : strips.sizes) {
-        length_ = 0;
-        for (std::uint32_t i = 0; i < size; ++i, at += sizeof(T)) {
-          const auto index = static_cast<std::int64_t>(load<T>(at));
-          if (index == -1) {
-            length_ = 0;
-          } else if (index < 0 || static_cast<std::uint64_t>(index) >= vertices_) {
-            return Error{ErrorCode::corrupt, "index of a vertex that is not there", offset,
-                         "element tristrips"};
-          } else if (!step(static_cast<Index>(index))) {
-            return Error{ErrorCode::over_limit, "more face corners than the limit", offset,
-                         "element tristrips"};
-          }
-        }
-      }
-      return std::nullopt;
-    });
-  }
-
- private:
-  bool step(Index c) {
-    const Index a = older_, b = newer_;
-    older_ = b;
-    newer_ = c;
-    if (++length_ < 3 || a == b || b == c || a == c) return true;
-    if (faces_.corners.size() + 3 > most_corners_) return false;
-    const bool turned = length_ % 2 == 0;
-    faces_.corners.insert(faces_.corners.end(), {turned ? b : a, turned ? a : b, c});
-    if (!faces_.first.empty()) faces_.first.push_back(static_cast<Index>(faces_.corners.size()));
-    return true;
-  }
-
-  FaceLists& faces_;
-  std::uint64_t vertices_, most_corners_;
-  Index older_ = 0, newer_ = 0;
-  std::uint64_t length_ = 0;
-};
 
 /// Elements a value, in the order that `rows` names.
 Bytes gathered(const Bytes& values, std::size_t bytes_each, std::span<const Index> rows) {
@@ -103,8 +39,10 @@ class ModelReader {
     if (!plan() || !expect_room() || !read_body() || !keep_rest())
       return tl::unexpected<Error>(std::move(error_));
     if (has_mesh_) {
-      if (!expand_strips() || !set_wedge_vertices() || !set_texcoords() || !set_groups())
+      if (!expand_strips() || !set_wedge_vertices() || !set_texcoords())
         return tl::unexpected<Error>(std::move(error_));
+      if (!read_textures(kept_.header, limits_.meshes, model_.scene, mesh_))
+        return fail(ErrorCode::over_limit, "more textures than the limit");
       canonicalize(mesh_);
       for (Element& e : kept_.header.elements)
         if (e.name == "vertex" || e.name == "face") e.count = 0;
@@ -316,34 +254,11 @@ class ModelReader {
       StripExpander expander(faces_, element("vertex")->count, most);
       auto error = expander.add(strips_, strips->properties[0].type, strips_offset_);
       if (error) return refuse(*std::move(error));
-      rename_strips();
+      turn_strips_into_faces(kept_.header);
     }
     mesh_.corners = std::move(faces_.corners);
     mesh_.face_first = std::move(faces_.first);
     return true;
-  }
-
-  /// In the kept header the strips become the faces that they were expanded into.
-  void rename_strips() {
-    auto& elements = kept_.header.elements;
-    Element* face = element("face");
-    if (face == nullptr) {
-      face = element("tristrips");
-      face->name = "face";
-      face->properties.clear();
-    } else {
-      const auto strips = std::ranges::find(elements, "tristrips", &Element::name);
-      std::vector<std::string> remarks = std::move(strips->remarks);
-      for (auto& more : strips->properties)
-        remarks.insert(remarks.end(), more.remarks.begin(), more.remarks.end());
-      const auto next = elements.erase(strips);
-      auto& later = next == elements.end() ? kept_.header.last_remarks : next->remarks;
-      later.insert(later.begin(), remarks.begin(), remarks.end());
-      face = element("face");
-    }
-    if (face->properties.empty())
-      face->properties.push_back(
-          list_property("vertex_indices", ComponentType::u8, ComponentType::i32));
   }
 
   /// Rows that are wedges: finds each vertex again at its first row.
@@ -402,45 +317,6 @@ class ModelReader {
     mesh_.wedge_vertex = std::move(wedges.wedge_vertex);
     mesh_.corners = std::move(wedges.corners);
     return true;
-  }
-
-  bool set_groups() {
-    for (const Element& e : kept_.header.elements) {
-      add_textures(e.remarks);
-      for (const Property& property : e.properties) add_textures(property.remarks);
-    }
-    add_textures(kept_.header.last_remarks);
-    const auto images = static_cast<Index>(model_.scene.images.size());
-    const auto number = std::ranges::find(mesh_.face_attributes, "texnumber", &Attribute::semantic);
-    if (images > limits_.meshes)
-      return refuse({ErrorCode::over_limit, "more textures than the limit", kNoOffset, {}});
-    if (images == 0) return true;
-    mesh_.groups.resize(1);
-    mesh_.groups[0].material = 0;
-    if (number == mesh_.face_attributes.end() || number->count != 1 || !is_integer(number->type))
-      return true;
-    mesh_.groups.resize(images);
-    for (Index i = 0; i < images; ++i) mesh_.groups[i].material = i;
-    mesh_.face_group.resize(number->elements());
-    for (std::size_t f = 0; f < mesh_.face_group.size(); ++f) {
-      const double n = component(*number, f, 0);
-      mesh_.face_group[f] = n >= 0 && n < images ? static_cast<Index>(n) : images;
-    }
-    if (std::ranges::count(mesh_.face_group, images) != 0) mesh_.groups.emplace_back();
-    return true;
-  }
-
-  void add_textures(const std::vector<std::string>& remarks) {
-    for (const std::string& remark : remarks) {
-      const std::string_view name = texture_of(remark);
-      if (name.empty()) continue;
-      Scene& scene = model_.scene;
-      Material material;
-      material.metallic = 0;
-      material.base_color_image = static_cast<Index>(scene.images.size());
-      scene.materials.push_back(std::move(material));
-      scene.images.push_back({.name = {}, .uri = std::string(name), .mime_type = {}, .data = {}});
-    }
   }
 
   ByteView file_;
