@@ -12,9 +12,12 @@
 #include "formats/obj/names.h"
 #include "formats/obj/numbers.h"
 #include "formats/obj/obj.h"
+#include "formats/obj/plan.h"
 
 namespace pstrips::inline formats {
 namespace {
+
+using obj::MeshPlan;
 
 void append_index(std::string& out, std::uint64_t index) {
   char text[20];
@@ -187,93 +190,6 @@ class ObjWriter {
 
   // Meshes.
 
-  /// What write_mesh finds out before it writes.
-  struct Plan {
-    const Attribute *normal = nullptr, *texcoord = nullptr, *texw = nullptr;
-    const Attribute *color = nullptr, *weight = nullptr, *smoothing = nullptr;
-    const Attribute* present = nullptr;
-    std::vector<bool> used;           ///< wedges that a corner names, or all of a cloud
-    std::vector<Index> vertex_wedge;  ///< a wedge of each vertex
-    bool cloud = false;               ///< no corners in the file: the n-th vn is the n-th v's
-  };
-
-  static bool has(const Plan& plan, std::size_t wedge, ObjPresent what) {
-    return !plan.present || (std::to_integer<int>(plan.present->data[wedge]) & what) != 0;
-  }
-
-  Plan plan_mesh(const Mesh& mesh) {
-    Plan plan;
-    for (const Attribute& a : mesh.wedge_attributes) {
-      if (a.semantic == "NORMAL" && a.count == 3)
-        plan.normal = &a;
-      else if (a.semantic == "TEXCOORD_0")
-        plan.texcoord = &a;
-      else if (a.semantic == "COLOR_0" && (a.count == 3 || a.count == 4))
-        plan.color = &a;
-      else if (a.semantic == kObjTexW && a.count == 1)
-        plan.texw = &a;
-      else if (a.semantic == kObjWeight && a.count == 1)
-        plan.weight = &a;
-      else if (a.semantic == kObjPresent && a.count == 1 && a.type == ComponentType::u8)
-        plan.present = &a;
-      else
-        drop(a.semantic);
-    }
-    for (const Attribute& a : mesh.face_attributes) {
-      if (a.semantic == kObjSmoothing && a.count == 1 && a.type == ComponentType::u32)
-        plan.smoothing = &a;
-      else
-        drop(a.semantic);
-    }
-    if (plan.texw && (!plan.texcoord || plan.texcoord->count > 2)) {
-      drop(kObjTexW);
-      plan.texw = nullptr;
-    }
-    plan.used.assign(mesh.wedge_count(), false);
-    for (const Index w : mesh.corners) plan.used[w] = true;
-    plan.cloud = mesh.corners.empty() && model_.meshes.size() == 1 &&
-                 mesh.wedge_count() == mesh.vertex_count() && mesh.wedge_vertex.empty();
-    if (plan.cloud) plan.used.assign(mesh.wedge_count(), true);
-    plan.vertex_wedge.assign(mesh.vertex_count(), 0);
-    for (Index w = mesh.wedge_count(); w-- > 0;) plan.vertex_wedge[mesh.vertex_of(w)] = w;
-    keep_if_of_vertex(mesh, plan, plan.color);
-    keep_if_of_vertex(mesh, plan, plan.weight);
-    report_vertex_values(mesh, plan);
-    return plan;
-  }
-
-  /// OBJ has colours and weights on vertices only.
-  void keep_if_of_vertex(const Mesh& mesh, const Plan& plan, const Attribute*& attribute) {
-    if (!attribute) return;
-    for (Index w = 0; w < mesh.wedge_count(); ++w)
-      if (!std::ranges::equal(attribute->element(w),
-                              attribute->element(plan.vertex_wedge[mesh.vertex_of(w)]))) {
-        drop(attribute->semantic);
-        attribute = nullptr;
-        return;
-      }
-  }
-
-  void report_vertex_values(const Mesh& mesh, const Plan& plan) {
-    if (mesh.position.count > 3) drop("POSITION beyond xyz");
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const Index w = plan.vertex_wedge[v];
-      if (plan.color && plan.weight && has(plan, w, kHasColor) && has(plan, w, kHasWeight))
-        drop(kObjWeight);
-    }
-    const bool has_tuples = plan.normal || plan.texcoord;
-    if (has_tuples && std::ranges::find(plan.used, false) != plan.used.end())
-      report_unused(mesh, plan);
-  }
-
-  void report_unused(const Mesh& mesh, const Plan& plan) {
-    const auto is_zero = [](std::byte b) { return b == std::byte{0}; };
-    for (const Attribute* a : {plan.normal, plan.texcoord})
-      for (Index w = 0; a && w < mesh.wedge_count(); ++w)
-        if (!plan.used[w] && !std::ranges::all_of(a->element(w), is_zero))
-          drop(a->semantic + " of wedges without a face");
-  }
-
   void write_mesh(std::size_t m) {
     const Mesh& mesh = model_.meshes[m];
     assert(find_inconsistency(mesh).empty());
@@ -283,7 +199,7 @@ class ObjWriter {
       object_ = name;
       write_statement("o", object_);
     }
-    const Plan plan = plan_mesh(mesh);
+    const MeshPlan plan = obj::plan_mesh(mesh, model_.meshes.size() == 1, dropped_);
     append_lines(out_, mesh.vertex_count(), threads_, [&](std::string& out, std::size_t v) {
       append_vertex(out, mesh, plan, static_cast<Index>(v));
     });
@@ -300,7 +216,7 @@ class ObjWriter {
     end_line();
   }
 
-  static void append_vertex(std::string& out, const Mesh& mesh, const Plan& plan, Index v) {
+  static void append_vertex(std::string& out, const Mesh& mesh, const MeshPlan& plan, Index v) {
     out += 'v';
     for (std::size_t c = 0; c < 3; ++c) {
       if (c < mesh.position.count)
@@ -309,17 +225,17 @@ class ObjWriter {
         out += " 0";
     }
     const Index w = plan.vertex_wedge[v];
-    if (plan.color && has(plan, w, kHasColor)) {
-      const bool alpha = plan.color->count == 4 && has(plan, w, kHasAlpha);
+    if (plan.color && plan.has(w, kHasColor)) {
+      const bool alpha = plan.color->count == 4 && plan.has(w, kHasAlpha);
       for (std::size_t c = 0; c < (alpha ? 4u : 3u); ++c) append_component(out, *plan.color, w, c);
-    } else if (plan.weight && has(plan, w, kHasWeight)) {
+    } else if (plan.weight && plan.has(w, kHasWeight)) {
       append_component(out, *plan.weight, w, 0);
     }
     out += '\n';
   }
 
   /// For each of the wedges the first of them with the same `vt` or `vn` line.
-  std::vector<Index> first_of_tuples(const Plan& plan, const Attribute& a,
+  std::vector<Index> first_of_tuples(const MeshPlan& plan, const Attribute& a,
                                      std::span<const Index> wedges) const {
     const bool texcoord = &a == plan.texcoord;
     const Attribute* const texw = texcoord ? plan.texw : nullptr;
@@ -340,8 +256,8 @@ class ObjWriter {
   }
 
   /// Writes each distinct tuple once, in order of first use; a cloud's one for each vertex.
-  TupleLines write_tuples(const Mesh& mesh, const Plan& plan, const Attribute* a, ObjPresent what,
-                          std::uint64_t& count) {
+  TupleLines write_tuples(const Mesh& mesh, const MeshPlan& plan, const Attribute* a,
+                          ObjPresent what, std::uint64_t& count) {
     TupleLines out;
     if (!a) return out;
     out.assign(mesh.wedge_count(), 0);
@@ -353,7 +269,7 @@ class ObjWriter {
     }
     std::vector<Index> wedges;  // those with a tuple
     for (Index w = 0; w < mesh.wedge_count(); ++w)
-      if (plan.used[w] && has(plan, w, what)) wedges.push_back(w);
+      if (plan.used[w] && plan.has(w, what)) wedges.push_back(w);
     const std::vector<Index> first = first_of_tuples(plan, *a, wedges);
     std::vector<Index> written;
     for (std::size_t i = 0; i < wedges.size(); ++i) {
@@ -367,20 +283,20 @@ class ObjWriter {
     return out;
   }
 
-  static void append_tuple(std::string& out, const Plan& plan, const Attribute& a, Index w) {
+  static void append_tuple(std::string& out, const MeshPlan& plan, const Attribute& a, Index w) {
     const bool texcoord = &a == plan.texcoord;
     out += texcoord ? "vt" : "vn";
     std::size_t components = std::min<std::size_t>(a.count, 3);
-    if (texcoord && plan.present && !has(plan, w, kHasTexV)) components = 1;
+    if (texcoord && plan.present && !plan.has(w, kHasTexV)) components = 1;
     for (std::size_t c = 0; c < components; ++c) append_component(out, a, w, c);
-    if (texcoord && plan.texw && components == 2 && has(plan, w, kHasTexW))
+    if (texcoord && plan.texw && components == 2 && plan.has(w, kHasTexW))
       append_component(out, *plan.texw, w, 0);
     out += '\n';
   }
 
   // Faces.
 
-  void write_faces(const Mesh& mesh, const Plan& plan, const std::string& mesh_object,
+  void write_faces(const Mesh& mesh, const MeshPlan& plan, const std::string& mesh_object,
                    const TupleLines& texcoords, const TupleLines& normals) {
     Index group = kNone;
     for (Index f = 0, next = 0; f < mesh.face_count(); f = next) {
@@ -408,7 +324,7 @@ class ObjWriter {
     }
   }
 
-  static std::uint32_t smoothing_of(const Plan& plan, Index face) {
+  static std::uint32_t smoothing_of(const MeshPlan& plan, Index face) {
     std::uint32_t value = 0;
     if (plan.smoothing) std::memcpy(&value, plan.smoothing->element(face).data(), sizeof value);
     return value;
