@@ -69,6 +69,7 @@ struct FileFormatRow {
   std::string_view title;  ///< for people
   Features holds;
   std::string_view companion;  ///< extension of a file that save() may write beside, with the dot
+  bool is_validated;           ///< the validator has rules for it
   Certainty (*detect)(ByteView file);
   Result<LoadedFile> (*read)(const FileBytes& file, const std::string& path,
                              const LoadOptions& options);

@@ -20,6 +20,7 @@ TEST(FileFormats, AreFoundByNameAndExtension) {
     EXPECT_EQ(name_of(row.format), row.name);
     EXPECT_EQ(format_of_path("a.b/c." + std::string(row.name)), row.format);
     EXPECT_EQ(holds(row.format, Feature::levels), row.write_strips != nullptr);
+    EXPECT_EQ(row.is_validated, row.name.starts_with("pstrip"));
   }
   EXPECT_EQ(format_of_path("A.PLY"), FileFormat::ply);
   for (const char* path : {"", "ply", ".ply", "a.xyzfoo", "a.stl", "a.ply/b", "a."})
