@@ -68,14 +68,15 @@ struct FileFormatRow {
   std::string_view name;   ///< "ply" …, as in --to and as the file extension
   std::string_view title;  ///< for people
   Features holds;
-  std::string_view companion;  ///< extension of a file that save() may write beside, with the dot
-  bool is_validated;           ///< the validator has rules for it
-  Certainty (*detect)(ByteView file);
+  std::string_view companion = {};  ///< extension of what save() may write beside, with the dot
+  bool is_validated = false;        ///< the validator has rules for it
+  Certainty (*detect)(ByteView file) = nullptr;
   Result<LoadedFile> (*read)(const FileBytes& file, const std::string& path,
-                             const LoadOptions& options);
+                             const LoadOptions& options) = nullptr;
   Result<FileSet> (*write_model)(const Model& model, const OutputName& name,
-                                 const SaveOptions& options);
-  Result<FileSet> (*write_strips)(const ProgressiveStrips& strips, const OutputName& name);
+                                 const SaveOptions& options) = nullptr;
+  Result<FileSet> (*write_strips)(const ProgressiveStrips& strips,
+                                  const OutputName& name) = nullptr;
 
   bool is_readable() const { return read != nullptr; }
   bool is_writable() const { return write_model != nullptr || write_strips != nullptr; }

@@ -15,6 +15,16 @@ std::size_t first_not_utf8(std::string_view text);
 
 inline bool is_utf8(std::string_view text) { return first_not_utf8(text) == text.size(); }
 
+/// White space as text files have it, line ends included.
+constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// The text without white space at both ends.
+constexpr std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
 /// The text without the byte order mark that some programs put in front of UTF-8.
 constexpr std::string_view without_utf8_mark(std::string_view text) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";

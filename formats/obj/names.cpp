@@ -17,12 +17,6 @@ bool ends_in_mtl(std::string_view word) {
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 std::string_view next_word(std::string_view& text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   const auto end = static_cast<std::size_t>(std::ranges::find_if(text, is_space) - text.begin());

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace pstrips::inline formats::obj {
+#include "core/text.h"
 
-std::string_view trimmed(std::string_view text);
+namespace pstrips::inline formats::obj {
 
 /// The next word of `text`, which is shortened by it; empty at the end.
 std::string_view next_word(std::string_view& text);

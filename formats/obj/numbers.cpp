@@ -1,35 +1,25 @@
 #include "formats/obj/numbers.h"
 
-#include <fast_float/fast_float.h>
-
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string_view>
+
+#include "core/numbers.h"
+#include "formats/text/decimal.h"
 
 namespace pstrips::inline formats::obj {
 namespace {
 
-// Powers of ten that are exact in a double: m·10^e or m/10^-e of an m below 2^53 is then one
-// rounding away from the decimal, and so correct. [Clinger90]
-constexpr int kExactPower = 22;
-constexpr std::array<double, kExactPower + 1> kPowers = [] {
-  std::array<double, kExactPower + 1> powers{1};
-  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
-  return powers;
-}();
-constexpr std::uint64_t kExactInteger = std::uint64_t{1} << 53;
+constexpr int kExactPower = std::size(kPowersOfTen) - 1;
 
 double scaled(std::uint64_t m, int exponent) {
   const auto value = static_cast<double>(m);
-  return exponent < 0 ? value / kPowers[static_cast<std::size_t>(-exponent)]
-                      : value * kPowers[static_cast<std::size_t>(exponent)];
+  return exponent < 0 ? value / kPowersOfTen[-exponent] : value * kPowersOfTen[exponent];
 }
-
-constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// A double half way between two floats: the decimal it stands for may lie on either side.
 bool is_tie(double value) {
@@ -79,8 +69,8 @@ const char* parse_any_number(const char* p, const char* end, Number& out) {
   while (stop != end && !is_space(*stop)) ++stop;
   const std::string_view token(p, static_cast<std::size_t>(stop - p));
   const bool plus = token.starts_with('+');
-  const auto [read, error] = fast_float::from_chars(p + plus, stop, out.value);
-  const bool whole = error == std::errc() && read == stop && !token.starts_with("+-");
+  const bool whole =
+      parse_decimal(token.substr(plus ? 1 : 0), out.value) && !token.starts_with("+-");
   if (!whole && !parse_msvc_special(token, out.value)) return nullptr;
   const bool says_so = token.find_first_of("nN") != token.npos;  // inf, nan, 1.#INF …
   if (!std::isfinite(out.value) && !says_so) return nullptr;
@@ -104,33 +94,18 @@ bool fits_f32(double value) {
   char text[32];
   const auto end = std::to_chars(std::begin(text), std::end(text), static_cast<float>(value)).ptr;
   double again = 0;
-  fast_float::from_chars(text, end, again);
+  parse_decimal({text, end}, again);
   return std::bit_cast<std::uint64_t>(again) == std::bit_cast<std::uint64_t>(value);
 }
 
 const char* parse_number(const char* p, const char* end, Number& out) {
-  const char* const start = p;
-  const bool negative = p != end && *p == '-';
-  if (negative) ++p;
-  std::uint64_t m = 0;
-  const char* const integer = p;
-  while (p != end && is_digit(*p)) m = 10 * m + static_cast<std::uint64_t>(*p++ - '0');
-  auto digits = p - integer;
-  int exponent = 0;
-  constexpr int kSafeDigits = 18;  // of which no integer exceeds 64 bits
-  if (p != end && *p == '.') {
-    const char* const fraction = ++p;
-    while (p != end && is_digit(*p)) m = 10 * m + static_cast<std::uint64_t>(*p++ - '0');
-    digits += p - fraction;
-    if (digits <= kSafeDigits) exponent = -static_cast<int>(p - fraction);
-  }
-  const bool simple =
-      digits > 0 && digits <= kSafeDigits && m < kExactInteger && (p == end || is_space(*p));
-  if (!simple) return parse_any_number(start, end, out);
-  const double magnitude = scaled(m, exponent);
-  out.value = negative ? -magnitude : magnitude;
-  out.fits_f32 = decimal_fits_f32(m, exponent, magnitude);
-  return p;
+  ShortDecimal decimal;
+  const char* const stop = read_short_decimal(p, end, decimal);
+  if (!stop) return parse_any_number(p, end, out);
+  const double magnitude = decimal.magnitude();
+  out.value = decimal.is_negative ? -magnitude : magnitude;
+  out.fits_f32 = decimal_fits_f32(decimal.mantissa, -static_cast<int>(decimal.decimals), magnitude);
+  return stop;
 }
 
 void append_number(std::string& out, float value) { append_shortest(out, value); }

@@ -2,11 +2,9 @@
 
 #include <string>
 
-namespace pstrips::inline formats::obj {
+#include "core/text.h"
 
-constexpr bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
-}
+namespace pstrips::inline formats::obj {
 
 struct Number {
   double value = 0;

@@ -383,7 +383,7 @@ class ObjWriter {
 
 Result<ObjFiles> write_obj(const Model& model, std::string mtl_name, unsigned threads) {
   const bool refused =
-      !mtl_name.empty() && (!obj::companion_path(mtl_name) || obj::trimmed(mtl_name) != mtl_name);
+      !mtl_name.empty() && (!obj::companion_path(mtl_name) || trimmed(mtl_name) != mtl_name);
   if (refused)
     return fail(ErrorCode::bad_argument, "not a name for a companion file", kNoOffset, mtl_name);
   return ObjWriter(model, std::move(mtl_name), threads).write();

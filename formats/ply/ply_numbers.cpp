@@ -1,7 +1,5 @@
 #include "formats/ply/ply_numbers.h"
 
-#include <fast_float/fast_float.h>
-
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -11,6 +9,7 @@
 #include <string>
 
 #include "core/text.h"
+#include "formats/text/decimal.h"
 
 namespace pstrips::inline formats::ply {
 namespace {
@@ -56,10 +55,7 @@ bool parse_real(std::string_view token, T& value) {
     value = std::bit_cast<T>(*bits | (negative ? kSignBit<T> : BitsOf<T>{0}));
     return true;
   }
-  const auto [end, failed] =
-      fast_float::from_chars(token.data(), token.data() + token.size(), value);
-  const bool whole = failed == std::errc{} && end == token.data() + token.size();
-  if (!whole) {
+  if (!parse_decimal(token, value)) {
     const auto bits = not_finite<T>(token);  // 1.#INF
     if (!bits) return false;
     value = std::bit_cast<T>(*bits);

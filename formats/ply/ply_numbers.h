@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/mesh.h"
+#include "core/numbers.h"
 
 namespace pstrips::inline formats::ply {
 
@@ -12,7 +13,6 @@ inline constexpr std::size_t kMaxNumberChars = 40;
 
 constexpr bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-constexpr bool is_space(char c) { return is_blank(c) || is_line_end(c); }
 
 template <class T>
 void store(std::byte* at, T value) {
@@ -69,12 +69,8 @@ char* format_number(char* at, T value);
 
 namespace detail {
 
-inline constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                          1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                          1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-
-/// A quotient of two exact doubles is correctly rounded. [Clinger90] Rounding it once more to a
-/// float is right unless it fell exactly between two floats or below the normal ones.
+/// A correctly rounded double as a T. Rounding it once more to a float is right unless it fell
+/// exactly between two floats or below the normal ones.
 inline bool narrow(double exact_once, double& out) {
   out = exact_once;
   return true;
@@ -99,42 +95,28 @@ bool parse_slowly(const char*& at, const char* end, T& value) {
 
 template <class T>
 bool parse_number(const char*& at, const char* end, T& value) {
-  const char* p = at;
-  const bool negative = p != end && *p == '-';
-  p += negative;
-  const char* const digits = p;
-  std::uint64_t mantissa = 0;
-  const auto is_digit = [&] { return p != end && static_cast<unsigned char>(*p - '0') < 10; };
-  const auto take_digits = [&] {
-    for (; is_digit(); ++p) mantissa = 10 * mantissa + static_cast<unsigned char>(*p - '0');
-  };
-  take_digits();
+  const char* stop = at;
   if constexpr (std::is_integral_v<T>) {
-    // Ten digits hold every 32-bit number and cannot overflow the mantissa.
-    const bool plain = p != digits && p - digits <= 10 && (p == end || is_space(*p));
+    const bool negative = stop != end && *stop == '-';
+    stop += negative;
+    std::uint64_t magnitude = 0;
+    // Ten digits hold every 32-bit number.
+    const std::uint32_t digits = read_digits(stop, end, magnitude);
+    const bool plain = digits != 0 && digits <= 10 && (stop == end || is_space(*stop));
     if (!plain) return detail::parse_slowly(at, end, value);
     const auto wide =
-        negative ? -static_cast<std::int64_t>(mantissa) : static_cast<std::int64_t>(mantissa);
+        negative ? -static_cast<std::int64_t>(magnitude) : static_cast<std::int64_t>(magnitude);
     if (wide < std::numeric_limits<T>::min() || wide > std::numeric_limits<T>::max()) return false;
     value = static_cast<T>(wide);
   } else {
-    std::size_t decimals = 0;
-    std::size_t count = static_cast<std::size_t>(p - digits);
-    if (p != end && *p == '.') {
-      const char* const fraction = ++p;
-      take_digits();
-      decimals = static_cast<std::size_t>(p - fraction);
-      count += decimals;
-    }
-    const bool plain = count != 0 && count <= 19 && mantissa < (std::uint64_t{1} << 53) &&
-                       (p == end || is_space(*p));
+    ShortDecimal decimal;
+    stop = read_short_decimal(at, end, decimal);
     T positive;
-    if (!plain ||
-        !detail::narrow(static_cast<double>(mantissa) / detail::kPowersOfTen[decimals], positive))
+    if (!stop || !detail::narrow(decimal.magnitude(), positive))
       return detail::parse_slowly(at, end, value);
-    value = negative ? -positive : positive;
+    value = decimal.is_negative ? -positive : positive;
   }
-  at = p;
+  at = stop;
   return true;
 }
 

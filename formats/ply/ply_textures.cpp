@@ -2,16 +2,10 @@
 
 #include <algorithm>
 
-#include "formats/ply/ply_numbers.h"
+#include "core/text.h"
 
 namespace pstrips::inline formats::ply {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 /// The name in "comment TextureFile NAME"; empty when it is no such remark.
 std::string_view texture_of(std::string_view remark) {
