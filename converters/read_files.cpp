@@ -65,7 +65,7 @@ Result<LoadedFile> load_pstrip(const FileBytes& file, const std::string&,
   for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
     const auto fed = parser.feed(bytes.subspan(at, std::min(kPiece, bytes.size() - at)));
     if (!fed) return tl::unexpected(fed.error());
-    file.forget(at + kPiece);
+    file.release(at + kPiece);
   }
   const auto missing = parser.end();
   if (missing && !(options.allow_prefix && parser.has_base())) return tl::unexpected(*missing);

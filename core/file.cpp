@@ -115,7 +115,7 @@ class TemporaryFile {
   ~TemporaryFile() {
     close();
     if (!name_.empty()) ::unlink(name_.c_str());
-    forget();
+    release();
   }
 
   int fd() const { return fd_; }
@@ -126,13 +126,13 @@ class TemporaryFile {
   bool rename_to(const std::filesystem::path& target) {
     if (::rename(name_.c_str(), target.c_str()) != 0) return false;
     name_.clear();
-    forget();
+    release();
     return true;
   }
 
  private:
   TemporaryFile() = default;
-  void forget() {
+  void release() {
     if (slot_ < kMaxNamed) temporary_used[slot_] = false;
     slot_ = kMaxNamed;
   }
@@ -161,7 +161,7 @@ FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
   return *this;
 }
 
-void FileBytes::forget(std::size_t size) const {
+void FileBytes::release(std::size_t size) const {
   if (!mapping_) return;
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
   // Only pages of the mapping itself: beyond it stand others'.

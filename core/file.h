@@ -24,7 +24,7 @@ class FileBytes {
   ByteView view() const { return view_; }
   /// Gives the memory of the first `size` bytes back while a mapped file is read front to back;
   /// they are read from disk again when touched again.
-  void forget(std::size_t size) const;
+  void release(std::size_t size) const;
 
  private:
   friend Result<FileBytes> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);

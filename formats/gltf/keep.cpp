@@ -192,7 +192,7 @@ Result<void> keep_rest(Document& document, std::string_view skeleton) {
   for (Index i = 0; i < document.views.size(); ++i) {
     if (!references.view_kept[i]) continue;
     const std::uint64_t bytes = document.views[i].bytes;
-    // EXT_structural_metadata wants its views at multiples of eight.
+    // EXT_structural_metadata requires its views at multiples of eight.
     const std::uint64_t offset = append(document, {false, i, 0, bytes}, 8);
     json view = std::move(old_views[i]);
     view.erase("byteOffset");

@@ -8,7 +8,7 @@
 namespace pstrips::inline formats::gltf {
 
 /// The nodes of an asset, parents before children, each subtree in one piece, roots and children in
-/// file order. glTF wants a tree; files with several parents a node exist, and such a node then
+/// file order. glTF requires a tree; files with several parents a node exist, and such a node then
 /// stands there once a parent.
 ///
 /// meshes  how many there are to refer to

@@ -145,7 +145,7 @@ class MeshReader {
   }
 
  private:
-  /// Refuses by the counts that the JSON tells alone, before a buffer is touched. What several
+  /// Refuses by the counts in the JSON alone, before a buffer is read. What several
   /// primitives share counts once, so that nothing is refused that would fit.
   Result<void> expect_room() const {
     constexpr std::uint64_t kHuge = std::uint64_t{1} << 36;  // a sum of such does not wrap

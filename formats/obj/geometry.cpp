@@ -66,9 +66,9 @@ bool read_numbers(Cursor& cursor, std::array<Number, n>& numbers, std::size_t le
 }
 
 bool check_tuple_count(Cursor& cursor, std::uint64_t count, const Limits& limits) {
-  return count <= most_tuples(limits) ||
+  return count <= max_tuples(limits) ||
          cursor.refuse(ErrorCode::over_limit,
-                       over_limit_message(count, "vt or vn lines", most_tuples(limits)));
+                       over_limit_message(count, "vt or vn lines", max_tuples(limits)));
 }
 
 bool at_part_end(const Cursor& cursor) {
@@ -124,9 +124,9 @@ bool read_vertex(Cursor& cursor, Geometry& out, const Limits& limits) {
   if (count == 5) return cursor.refuse(ErrorCode::corrupt, "five numbers in a vertex");
   Referenced& vertices = out.vertices;
   VertexValues& values = out.values;
-  if (vertices.count >= most_vertices(limits))
+  if (vertices.count >= max_vertices(limits))
     return cursor.refuse(ErrorCode::over_limit,
-                         over_limit_message(vertices.count + 1, "vertices", most_vertices(limits)));
+                         over_limit_message(vertices.count + 1, "vertices", max_vertices(limits)));
   for (std::size_t i = 0; i < 3; ++i) {
     values.position.push_back(numbers[i].value);
     values.position_fits &= numbers[i].fits_f32;

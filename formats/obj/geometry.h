@@ -48,13 +48,13 @@ struct Geometry {
 
 inline constexpr std::uint64_t kVertexBytes = 96, kTupleBytes = 32, kCornerBytes = 36;
 
-inline std::uint64_t most_vertices(const Limits& limits) {
+inline std::uint64_t max_vertices(const Limits& limits) {
   return std::min<std::uint64_t>(limits.vertices, kMaxCount);
 }
-inline std::uint64_t most_tuples(const Limits& limits) {
+inline std::uint64_t max_tuples(const Limits& limits) {
   return std::min<std::uint64_t>(limits.wedges, kMaxCount);
 }
-inline std::uint64_t most_corners(const Limits& limits) {
+inline std::uint64_t max_corners(const Limits& limits) {
   return std::min<std::uint64_t>(limits.corners, kMaxCount);
 }
 

@@ -1,11 +1,11 @@
-#include "formats/obj/census.h"
+#include "formats/obj/line_counts.h"
 
 #include <algorithm>
 
 namespace pstrips::inline formats::obj {
 
-Census take_census(std::string_view text) {
-  Census out;
+LineCounts count_lines(std::string_view text) {
+  LineCounts out;
   bool continued = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());

@@ -42,8 +42,8 @@ class ModelMaker {
                       .texcoord = in_.geometry.texcoord,
                       .texcoord_flags = in_.geometry.texcoord_flags,
                       .normal = in_.geometry.normal});
-    if (wedges.vertex.size() > most_tuples(limits_))
-      return refuse(over_limit_message(wedges.vertex.size(), "wedges", most_tuples(limits_)));
+    if (wedges.vertex.size() > max_tuples(limits_))
+      return refuse(over_limit_message(wedges.vertex.size(), "wedges", max_tuples(limits_)));
     wedges_ = std::move(wedges);
     if (in_.geometry.corner_vertex.empty()) take_cloud_attributes();
 

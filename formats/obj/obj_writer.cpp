@@ -242,7 +242,7 @@ class ObjWriter {
     const bool has_present = texcoord && plan.present;
     const std::size_t size =
         a.element_bytes() + (texw ? texw->element_bytes() : 0) + (has_present ? 1 : 0);
-    Bytes table;  // what tells lines apart
+    Bytes table;  // what lines differ by
     table.reserve(size * wedges.size());
     const auto append = [&](ByteView bytes) {
       table.insert(table.end(), bytes.begin(), bytes.end());

@@ -24,7 +24,8 @@ struct MeshPlan {
   }
 };
 
-/// `alone` tells whether the file is to hold no other mesh; `dropped` receives what OBJ cannot say.
+/// alone    the file is to hold no other mesh
+/// dropped  receives what OBJ has no words for
 MeshPlan plan_mesh(const Mesh& mesh, bool alone, std::set<std::string>& dropped);
 
 }  // namespace pstrips::inline formats::obj

@@ -37,7 +37,7 @@ class RunReader {
       if (!read_corner(cursor, out)) return false;
     if (out.corner_vertex.size() == out.face_first.back()) return false;
     out.face_first.push_back(static_cast<Index>(out.corner_vertex.size()));
-    return out.corner_vertex.size() <= most_corners(limits_);
+    return out.corner_vertex.size() <= max_corners(limits_);
   }
 
   Run& run_;
@@ -47,7 +47,7 @@ class RunReader {
 
 }  // namespace
 
-std::uint64_t Run::most_bytes(std::uint64_t name_bytes) const {
+std::uint64_t Run::max_bytes(std::uint64_t name_bytes) const {
   // Each event may bring a name and a group, or corners like those of the run's own lines; no
   // character of a line costs more than the shortest corner's.
   const std::uint64_t text = end - begin;

@@ -23,7 +23,7 @@ struct Run {
   std::vector<Event> events;
 
   /// Memory that reading its lines takes at most.
-  std::uint64_t most_bytes(std::uint64_t name_bytes) const;
+  std::uint64_t max_bytes(std::uint64_t name_bytes) const;
 };
 
 /// The end of the run of about `run_bytes` that starts at `begin`: behind a line that does not go

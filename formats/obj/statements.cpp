@@ -8,8 +8,8 @@
 
 #include "core/parallel.h"
 #include "core/text.h"
-#include "formats/obj/census.h"
 #include "formats/obj/libraries.h"
+#include "formats/obj/line_counts.h"
 #include "formats/obj/names.h"
 #include "formats/obj/runs.h"
 
@@ -42,21 +42,21 @@ class StatementReader {
     constexpr std::uint64_t kShortestFace = 4;       // "f 1\n"
     constexpr std::uint64_t kMemoryACharacter = 12;  // of the shortest vertices
     const std::uint64_t size = text_.size();
-    if (size / kShortestVertex <= most_vertices(limits_) &&
-        size / kShortestTuple <= most_tuples(limits_) &&
-        size / kShortestFace <= most_corners(limits_) &&
+    if (size / kShortestVertex <= max_vertices(limits_) &&
+        size / kShortestTuple <= max_tuples(limits_) &&
+        size / kShortestFace <= max_corners(limits_) &&
         size * kMemoryACharacter <= limits_.memory_bytes)
       return true;
-    const Census census = take_census(text_);
+    const LineCounts counts = count_lines(text_);
     const auto over = [&](std::uint64_t figure, std::string_view what, std::uint64_t limit) {
       return figure > limit &&
              !refuse_at(ErrorCode::over_limit, over_limit_message(figure, what, limit), 0);
     };
-    return !over(census.vertices, "vertices", most_vertices(limits_)) &&
-           !over(census.tuples, "vt and vn lines", 2 * most_tuples(limits_)) &&
-           !over(census.faces, "face corners", most_corners(limits_)) &&
-           !over(census.vertices * kVertexBytes + census.tuples * kTupleBytes +
-                     census.faces * kCornerBytes,
+    return !over(counts.vertices, "vertices", max_vertices(limits_)) &&
+           !over(counts.tuples, "vt and vn lines", 2 * max_tuples(limits_)) &&
+           !over(counts.faces, "face corners", max_corners(limits_)) &&
+           !over(counts.vertices * kVertexBytes + counts.tuples * kTupleBytes +
+                     counts.faces * kCornerBytes,
                  "bytes of memory", limits_.memory_bytes);
   }
 
@@ -91,7 +91,7 @@ class StatementReader {
                   over_limit_message(charged(), "bytes of memory", limits_.memory_bytes));
   }
 
-  // Runs. Some are read at once, then told one after the other.
+  // Runs. Some are read at once, then appended one after the other.
 
   bool read_runs(std::size_t& at) {
     constexpr std::size_t kRunsAtOnce = 16;
@@ -127,11 +127,11 @@ class StatementReader {
       return all + more + others <= most;
     };
     const Geometry &all = geometry_, &more = run.geometry;
-    return fits(all.vertices.count, more.vertices.count, most_vertices(limits_)) &&
-           fits(all.texcoords.count, more.texcoords.count, most_tuples(limits_)) &&
-           fits(all.normals.count, more.normals.count, most_tuples(limits_)) &&
-           fits(all.corner_vertex.size(), more.corner_vertex.size(), most_corners(limits_)) &&
-           charged() + run.most_bytes(kNameBytes) <= limits_.memory_bytes;
+    return fits(all.vertices.count, more.vertices.count, max_vertices(limits_)) &&
+           fits(all.texcoords.count, more.texcoords.count, max_tuples(limits_)) &&
+           fits(all.normals.count, more.normals.count, max_tuples(limits_)) &&
+           fits(all.corner_vertex.size(), more.corner_vertex.size(), max_corners(limits_)) &&
+           charged() + run.max_bytes(kNameBytes) <= limits_.memory_bytes;
   }
 
   bool take(const Run& run) {
@@ -240,9 +240,9 @@ class StatementReader {
     }
     const std::size_t corners = geometry_.corner_vertex.size();
     if (corners == first) return accept(cursor_.refuse_short("an element without a corner"));
-    if (corners > most_corners(limits_))
+    if (corners > max_corners(limits_))
       return refuse(ErrorCode::over_limit,
-                    over_limit_message(corners, "face corners", most_corners(limits_)));
+                    over_limit_message(corners, "face corners", max_corners(limits_)));
     if (kind != FaceKind::points) end_face(kind);
     return error_ == std::nullopt;
   }

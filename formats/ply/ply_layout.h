@@ -46,7 +46,7 @@ bool has_texcoord_list(const Element& face);
 
 /// Properties for an attribute that no header names: the usual words where vertex_layout would
 /// give the same attribute back from them, else NAME[0] NAME[1] ….
-/// usual  false asks for the second form at any rate
+/// usual  false: the second form at any rate
 std::vector<Property> properties_for(const Attribute& attribute, bool usual);
 
 }  // namespace pstrips::inline formats::ply

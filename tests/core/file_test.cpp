@@ -60,13 +60,13 @@ TEST_F(Files, KeepTheirPermissions) {
   EXPECT_EQ(std::filesystem::status(dir_ / "a").permissions(), std::filesystem::perms(0640));
 }
 
-TEST_F(Files, CanBeForgottenAndReadAgain) {
+TEST_F(Files, CanBeReleasedAndReadAgain) {
   const std::string text(100'000, 'x');
   ASSERT_TRUE(write_files({{dir_ / "a", as_bytes(text)}}));
   const auto file = read_file(dir_ / "a");
   ASSERT_TRUE(file);
   for (const std::size_t size : {std::size_t{0}, std::size_t{5000}, text.size(), text.size() * 100})
-    file->forget(size);
+    file->release(size);
   EXPECT_EQ(as_text(file->view()), text);
 }
 

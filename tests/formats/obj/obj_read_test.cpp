@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "formats/obj/census.h"
+#include "formats/obj/line_counts.h"
 #include "tests/formats/obj/support.h"
 
 namespace pstrips::test {
@@ -423,9 +423,9 @@ TEST(ReadObj, RefusesWhatDoesNotFitBeforeWorkStarts) {
 TEST(ReadObj, CountsNoStatementsInContinuedLines) {
   std::string text;
   for (int i = 0; i < 5; ++i) text += "v 0 0 0\nl \\\nf 1 \\\r\nv 0 0 0\n#\\\nv 1 1 1\n";
-  const obj::Census census = obj::take_census(text);
-  EXPECT_EQ(census.vertices, 5u);
-  EXPECT_EQ(census.faces, 0u);
+  const obj::LineCounts counts = obj::count_lines(text);
+  EXPECT_EQ(counts.vertices, 5u);
+  EXPECT_EQ(counts.faces, 0u);
 }
 
 TEST(ReadObj, DoesNotMultiplyALongObjectName) {
