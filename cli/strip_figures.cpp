@@ -44,7 +44,7 @@ std::string find_fault(const Mesh& mesh, const StripMap& map) {
 }
 
 std::string find_polygon_fault(const Mesh& mesh, const StripMap& map) {
-  const StripFaces faces = strippable_faces(mesh);
+  const StrippableFaces faces = strippable_faces(mesh);
   return find_polygon_strip_fault(
       PolygonInput{.corners = faces.corners,
                    .face_first = faces.face_first,

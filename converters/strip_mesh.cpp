@@ -136,9 +136,9 @@ StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
       [&](const GroupFaces& group) { return stripifier.run(group.triangles(), options); });
 }
 
-StripFaces strippable_faces(const Mesh& mesh) {
+StrippableFaces strippable_faces(const Mesh& mesh) {
   const Triangulation triangles = triangulate(mesh);
-  StripFaces out;
+  StrippableFaces out;
   const auto add = [&](std::span<const Index> face, Index group) {
     out.corners.insert(out.corners.end(), face.begin(), face.end());
     out.face_first.push_back(static_cast<Index>(out.corners.size()));
@@ -160,7 +160,7 @@ StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
                      const StripOptions& options) {
   if (!stripifier.run_polygons || mesh.face_first.empty())
     return strip_mesh(mesh, triangulate(mesh), stripifier, options);
-  const StripFaces all = strippable_faces(mesh);
+  const StrippableFaces all = strippable_faces(mesh);
   GroupFaces faces(mesh, true);
   const ByGroup by_group = sort_by_group(mesh.groups.size(), all.group.size(),
                                          [&](std::size_t f) { return all.group[f]; });

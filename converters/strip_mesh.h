@@ -15,12 +15,12 @@ StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
 
 /// The faces that strips over polygons cover: those of a mesh, degenerate ones and those that meet
 /// a vertex twice as their triangles.
-struct StripFaces {
+struct StrippableFaces {
   std::vector<Index> corners;  ///< wedges
   std::vector<Index> face_first{0};
   std::vector<Index> group;
 };
-StripFaces strippable_faces(const Mesh& mesh);
+StrippableFaces strippable_faces(const Mesh& mesh);
 
 /// strip_mesh() of the strippable faces, whose diagonals the stripifier chooses where it can
 /// (NamedStripifier::run_polygons) and triangulate() where not.

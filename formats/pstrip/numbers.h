@@ -56,7 +56,8 @@ bool parse_number(std::string_view token, double& out);
 /// Stores the component at `at`, which has room for size_of(type) bytes.
 bool parse_component(std::string_view token, ComponentType type, std::byte* at);
 
-constexpr bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+/// White space as XML has it.
+constexpr bool is_xml_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 /// Tokens of a text, parted by white space.
 class Tokens {
@@ -65,7 +66,7 @@ class Tokens {
   bool at_end() const { return rest_.empty(); }
   std::string_view next() {
     std::size_t n = 0;
-    while (n < rest_.size() && !is_space(rest_[n])) ++n;
+    while (n < rest_.size() && !is_xml_space(rest_[n])) ++n;
     const std::string_view token = rest_.substr(0, n);
     rest_.remove_prefix(n);
     skip_space();
@@ -77,7 +78,7 @@ class Tokens {
  private:
   void skip_space() {
     std::size_t n = 0;
-    while (n < rest_.size() && is_space(rest_[n])) ++n;
+    while (n < rest_.size() && is_xml_space(rest_[n])) ++n;
     rest_.remove_prefix(n);
   }
   std::string_view rest_;

@@ -17,12 +17,12 @@ class Words {
 
   /// The next word; empty at the end, which `needed` makes an error.
   std::string_view next(bool needed = true) {
-    while (at_ < text_.size() && is_space(text_[at_])) {
+    while (at_ < text_.size() && is_xml_space(text_[at_])) {
       if (text_[at_] == '\n') ++line_;
       ++at_;
     }
     word_ = at_;
-    while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
+    while (at_ < text_.size() && !is_xml_space(text_[at_])) ++at_;
     // A word that nothing follows may have been cut.
     if (at_ == text_.size() && (needed || word_ < at_))
       fail(ErrorCode::truncated, "ends inside a line");

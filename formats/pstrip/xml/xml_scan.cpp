@@ -48,7 +48,7 @@ class Scanner {
   bool ends_early() { return fail(Fault::truncated, "ends inside the document"); }
 
   void skip_space() {
-    while (!at_end() && is_space(text_[at_])) ++at_;
+    while (!at_end() && is_xml_space(text_[at_])) ++at_;
   }
 
   /// Passes `word`; an early end inside it is truncated, anything else corrupt.
@@ -174,7 +174,7 @@ class Scanner {
     if (text_[at_] == '<') return markup();
     bool space = true;
     while (!at_end() && text_[at_] != '<') {
-      space = space && is_space(text_[at_]);
+      space = space && is_xml_space(text_[at_]);
       if (text_[at_] == '&' ? !entity() : !pass_character()) return false;
     }
     if (!space) ++extent_.texts;
@@ -214,7 +214,7 @@ class Scanner {
     if (!name(tag)) return false;
     open_.push_back(tag);
     for (;;) {
-      const bool space = !at_end() && is_space(text_[at_]);
+      const bool space = !at_end() && is_xml_space(text_[at_]);
       skip_space();
       if (at_end()) return ends_early();
       if (text_[at_] == '>') return ++at_, true;

@@ -69,7 +69,7 @@ constexpr std::array<std::int8_t, 256> kBase64Values = [] {
 std::size_t character_bytes(std::string_view text) {
   if (text.empty()) return 0;
   const unsigned first = byte_at(text, 0);
-  if (first < 0x80) return first >= 0x20 || is_space(text[0]) ? 1 : 0;
+  if (first < 0x80) return first >= 0x20 || is_xml_space(text[0]) ? 1 : 0;
   const std::size_t size = announced_bytes(first);
   if (size == 0 || text.size() < size) return 0;
   unsigned code = first & (0xffu >> (size + 1));
@@ -131,7 +131,7 @@ bool fits_content(ByteView bytes) {
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t n = character_bytes(text.substr(i));
     if (n == 0 || text[i] == '\r') return false;
-    all_space = all_space && is_space(text[i]);
+    all_space = all_space && is_xml_space(text[i]);
     i += n;
   }
   return !all_space;
@@ -163,7 +163,7 @@ std::optional<Bytes> parse_base64(std::string_view text) {
   int digits = 0, padding = 0;
   bool ended = false;
   for (const char c : text) {
-    if (is_space(c)) continue;
+    if (is_xml_space(c)) continue;
     if (ended) return std::nullopt;
     const int v = kBase64Values[static_cast<unsigned char>(c)];
     if (c == '=') {
