@@ -30,7 +30,7 @@ void report(const Streams& io, const Options& options, const LoadedFile& input,
                         escaped(options.output), byte_size(saved.bytes()));
 }
 
-std::string guards_of(const GuardCounts& counts) {
+std::string constraints_of(const ConstraintCounts& counts) {
   return fmt::format("{} by border, {} by topology, {} by flipped faces, {} by flipped texture",
                      grouped(counts.border), grouped(counts.link), grouped(counts.flip),
                      grouped(counts.texture));
@@ -58,8 +58,8 @@ void report_simplification(const Streams& io, const std::vector<SimplifyReport>&
     if (!verbose && (io.quiet || r.stop != SimplifyStop::exhausted)) continue;
     io.err << fmt::format("mesh {} \"{}\": {} -> {} triangles, {}\n", m, escaped(r.mesh),
                           grouped(r.triangles), grouped(r.base_triangles), reason_of(r.stop));
-    io.err << fmt::format("  collapses put off: {}\n", guards_of(r.refused));
-    io.err << fmt::format("  taken nevertheless: {}\n", guards_of(r.forced));
+    io.err << fmt::format("  collapses put off: {}\n", constraints_of(r.refused));
+    io.err << fmt::format("  taken nevertheless: {}\n", constraints_of(r.forced));
   }
 }
 

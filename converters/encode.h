@@ -54,7 +54,7 @@ struct SimplifyReport {
   std::string mesh;  ///< its name
   std::uint64_t triangles = 0, base_triangles = 0;
   SimplifyStop stop = SimplifyStop::target;
-  GuardCounts refused, forced;
+  ConstraintCounts refused, forced;
 };
 
 /// Turns a model into progressive strips: triangulate, stripify, simplify, record, pack.

@@ -3,8 +3,8 @@
 #include <limits>
 #include <vector>
 
+#include "codecs/collapse.h"
 #include "codecs/measure/error_bounds.h"
-#include "codecs/simplify/simplify.h"
 #include "codecs/triangulate/triangulate.h"
 #include "core/mesh.h"
 

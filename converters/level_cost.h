@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "codecs/simplify/simplify.h"
+#include "codecs/collapse.h"
 #include "core/mesh.h"
 
 namespace pstrips::inline converters {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "codecs/simplify/simplify.h"
+#include "codecs/collapse.h"
 #include "formats/pstrip/text/text.h"
 
 namespace pstrips::inline converters {

@@ -97,12 +97,12 @@ void Complex::gather(Index vertex, Star& star) {
   make_room(star, corners.size());
   Index edges = 0;
   for (Index i = 0; i < corners.size(); ++i) {
-    Spoke& spoke = star.spoke_buffer[i];
-    spoke.corner = corners[i];
-    spoke.next = corner_vertex[next(corners[i])];
-    spoke.previous = corner_vertex[previous(corners[i])];
+    IncidentCorner& incident = star.corner_buffer[i];
+    incident.corner = corners[i];
+    incident.next = corner_vertex[next(corners[i])];
+    incident.previous = corner_vertex[previous(corners[i])];
     for (Index side = 0; side < 2; ++side) {
-      const Index other = side == 0 ? spoke.next : spoke.previous;
+      const Index other = side == 0 ? incident.next : incident.previous;
       if (marks[other] != epoch) {
         marks[other] = epoch;
         slot_[other] = edges;
@@ -111,7 +111,7 @@ void Complex::gather(Index vertex, Star& star) {
       StarEdge& edge = star.edge_buffer[slot_[other]];
       ++edge.triangles;
       edge.outgoing += side == 0 ? 1 : 0;
-      spoke.more[side] = edge.first;
+      incident.more[side] = edge.first;
       edge.first = 2 * i + side;
     }
   }
@@ -131,39 +131,39 @@ void Complex::gather_regular(Index vertex, Star& star) {
     const Index corner = first[i];
     if (is_dead(corner)) continue;
     first[live] = corner;
-    Spoke& spoke = star.spoke_buffer[live];
-    spoke.next = corner_vertex[next(corner)];
-    spoke.previous = corner_vertex[previous(corner)];
-    spoke.corner = corner;
+    IncidentCorner& incident = star.corner_buffer[live];
+    incident.next = corner_vertex[next(corner)];
+    incident.previous = corner_vertex[previous(corner)];
+    incident.corner = corner;
     StarEdge& edge = star.edge_buffer[live];
-    edge.vertex = spoke.next;
+    edge.vertex = incident.next;
     edge.triangles = 2;
-    edge.refused = Guard::none;
-    edge.has_gap = false;
+    edge.refused = CollapseConstraint::none;
+    edge.counts_new_faces = false;
     ++live;
   }
   record.ring_size = live;
   place(star, live, live);
 }
 
-void Complex::make_room(Star& star, std::size_t spokes) {
-  const std::size_t edges = 2 * spokes;
+void Complex::make_room(Star& star, std::size_t corners) {
+  const std::size_t edges = 2 * corners;
   if (star.edge_buffer.size() >= edges + 3) return;
-  star.spoke_buffer.resize(spokes + 3);
+  star.corner_buffer.resize(corners + 3);
   star.edge_buffer.resize(edges + 3);
-  star.spoke_group_buffer.resize(spokes / 4 + 1);
+  star.corner_group_buffer.resize(corners / 4 + 1);
   star.edge_group_buffer.resize(edges / 4 + 1);
 }
 
-// Where there is no edge or spoke any more, the star's vertex takes its place. A triangle with a
+// Where there is no edge or corner any more, the star's vertex takes its place. A triangle with a
 // locked vertex gets no area.
-void Complex::place(Star& star, Index spokes, Index edges) const {
-  star.spokes = {star.spoke_buffer.data(), spokes};
+void Complex::place(Star& star, Index corners, Index edges) const {
+  star.corners = {star.corner_buffer.data(), corners};
   star.edges = {star.edge_buffer.data(), edges};
-  star.spoke_groups = {star.spoke_group_buffer.data(), (spokes + 3) / 4};
+  star.corner_groups = {star.corner_group_buffer.data(), (corners + 3) / 4};
   star.edge_groups = {star.edge_group_buffer.data(), (edges + 3) / 4};
-  for (Index i = spokes; i % 4 != 0; ++i)
-    star.spoke_buffer[i].next = star.spoke_buffer[i].previous = star.vertex;
+  for (Index i = corners; i % 4 != 0; ++i)
+    star.corner_buffer[i].next = star.corner_buffer[i].previous = star.vertex;
   for (Index i = edges; i % 4 != 0; ++i) star.edge_buffer[i].vertex = star.vertex;
 
   const Vec3f own = points[star.vertex].position;
@@ -181,8 +181,8 @@ void Complex::place(Star& star, Index spokes, Index edges) const {
     group.offset = offsets(e[0].vertex, e[1].vertex, e[2].vertex, e[3].vertex, group.error);
     e += 4;
   }
-  const Spoke* s = star.spoke_buffer.data();
-  for (SpokeGroup& group : star.spoke_groups) {
+  const IncidentCorner* s = star.corner_buffer.data();
+  for (CornerGroup& group : star.corner_groups) {
     Float4 next_error, previous_error;
     group.next = offsets(s[0].next, s[1].next, s[2].next, s[3].next, next_error);
     group.previous =
@@ -192,45 +192,6 @@ void Complex::place(Star& star, Index spokes, Index edges) const {
                   known ? group.next.z : Float4{}};
     s += 4;
   }
-}
-
-// Each spoke's previous vertex is the next of one spoke, and no two have the same.
-bool Star::is_regular() const {
-  if (spokes.size() > kMaxForPairs) return false;
-  Int4 hits_of_lane[kMaxForPairs / 4] = {};
-  for (const Spoke& spoke : spokes) {
-    Int4 hits = {};
-    for (std::size_t g = 0; g < edge_groups.size(); ++g) {
-      const Int4 hit = edge_groups[g].vertex == static_cast<std::int32_t>(spoke.previous);
-      hits += hit;
-      hits_of_lane[g] += hit;
-    }
-    if (hits[0] + hits[1] + hits[2] + hits[3] != -1) return false;
-  }
-  for (std::size_t i = 0; i < spokes.size(); ++i)
-    if (hits_of_lane[i / 4][i % 4] != -1) return false;
-  return true;
-}
-
-Quadric Star::measure() {
-  Float4 xx = {}, yy = {}, zz = {}, xy = {}, xz = {}, yz = {}, weight = {};
-  for (SpokeGroup& group : spoke_groups) {
-    const Vec3x4 n = cross(group.next, group.previous);
-    const Float4 length = sqrt4(dot(n, n));
-    const Float4 inverse = length > 0 ? 1 / length : Float4{};
-    group.normal = {n.x * inverse, n.y * inverse, n.z * inverse};
-    group.area = length > 0 ? length * 0.5f : Float4{};
-    const Vec3x4& u = group.normal;
-    const Vec3x4 w = {u.x * group.area, u.y * group.area, u.z * group.area};
-    xx += w.x * u.x, yy += w.y * u.y, zz += w.z * u.z;
-    xy += w.x * u.y, xz += w.x * u.z, yz += w.y * u.z;
-    weight += group.area;
-  }
-  Quadric sum;
-  sum.xx = sum4(xx), sum.yy = sum4(yy), sum.zz = sum4(zz);
-  sum.xy = sum4(xy), sum.xz = sum4(xz), sum.yz = sum4(yz);
-  sum.weight = sum4(weight);
-  return sum;
 }
 
 void Complex::append(Index vertex, std::span<const Index> corners) {

@@ -7,77 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "codecs/simplify/float4.h"
 #include "codecs/simplify/quadric.h"
+#include "codecs/simplify/star.h"
 #include "core/mesh.h"
 
 namespace pstrips::inline codecs {
-
-/// A triangle at a vertex: its other two vertices in winding order, and the vertex's own corner.
-struct Spoke {
-  Index next, previous;
-  Index corner;
-  Index more[2];  ///< the next spoke on the same edge as a multiple of 2 plus its side, or kNone:
-                  ///< for the edge to `next` and to `previous`
-};
-
-/// What speaks against a collapse.
-enum class Guard : std::uint8_t {
-  none,
-  border,   ///< a vertex leaves the border, or a place where several borders meet
-  link,     ///< the topology changes, or two faces become one
-  flip,     ///< a face turns too far or becomes a sliver
-  texture,  ///< the same in the texture, where faces may not turn over
-};
-
-/// An edge at a vertex.
-struct StarEdge {
-  Index vertex;         ///< the other end
-  Index triangles;      ///< on this edge
-  Index outgoing;       ///< of them, those that run along it away from the vertex
-  Index first = kNone;  ///< as Spoke::more
-  float cost = 0, error = 0;
-  Vec3f place = {};  ///< offset from the star's vertex of where the collapse would leave it
-  Guard refused = Guard::none;
-  bool has_gap = false;  ///< its cost counts squared_gap()
-};
-
-/// Where four edges of a star lead.
-struct EdgeGroup {
-  Int4 vertex;    ///< the other ends; where there is none, the star's own vertex
-  Vec3x4 offset;  ///< from the star's vertex
-  Float4 error;   ///< VertexPoint::error of the other ends
-};
-/// The shape of four triangles of a star; nothing where there are fewer.
-struct SpokeGroup {
-  Vec3x4 next, previous;  ///< offsets from the star's vertex
-  Vec3x4 normal;          ///< once measured: unit, or zero
-  Float4 area;            ///< once measured
-};
-
-/// Rings up to this size are compared pair by pair.
-constexpr Index kMaxForPairs = 16;
-
-/// The live triangles and edges around one vertex; scratch memory.
-struct Star {
-  Index vertex = kNone;
-  std::span<Spoke> spokes;
-  std::span<StarEdge> edges;
-  std::span<EdgeGroup> edge_groups;    ///< edges 0 to 3, 4 to 7 …
-  std::span<SpokeGroup> spoke_groups;  ///< spokes likewise
-  Index open_edges = 0;                ///< with one triangle or more than two
-  std::vector<Spoke> spoke_buffer;
-  std::vector<StarEdge> edge_buffer;
-  std::vector<EdgeGroup> edge_group_buffer;
-  std::vector<SpokeGroup> spoke_group_buffer;
-
-  /// Whether the vertex is regular, after gather_regular(). Not told apart beyond kMaxForPairs
-  /// spokes.
-  bool is_regular() const;
-  /// Fills normals and areas; returns the quadric of the triangles. [Garland97 §3.4]
-  Quadric measure();
-  Vec3f normal(Index spoke) const { return spoke_groups[spoke / 4].normal.lane(spoke % 4); }
-};
 
 /// What the neighbours of a vertex ask for, four on a cache line.
 struct alignas(16) VertexPoint {
@@ -152,9 +86,9 @@ class Complex {
   std::span<const Index> ring_with_dead(Index vertex) const {
     return {pool_.data() + vertices[vertex].ring, vertices[vertex].ring_size};
   }
-  /// Fills spokes and edges; `edges` in order of appearance. Cost O(ring).
+  /// Fills corners and edges; `edges` in order of appearance. Cost O(ring).
   void gather(Index vertex, Star& star);
-  /// The same for a regular vertex, faster: no lists of the spokes on an edge. Several threads may
+  /// The same for a regular vertex, faster: no lists of the corners on an edge. Several threads may
   /// do so at once with different vertices.
   void gather_regular(Index vertex, Star& star);
   /// Adds corners to the ring of a vertex. Amortized O(corners).
@@ -167,8 +101,8 @@ class Complex {
   std::span<const Index> few_of_ring(Index v) const {
     return {pool_.data() + vertices[v].ring, std::min(vertices[v].ring_size, Index{8})};
   }
-  static void make_room(Star& star, std::size_t spokes);
-  void place(Star& star, Index spokes, Index edges) const;
+  static void make_room(Star& star, std::size_t corners);
+  void place(Star& star, Index corners, Index edges) const;
 
   std::vector<Index> pool_;
   std::vector<Index> slot_;  // by vertex: its edge while a star is gathered

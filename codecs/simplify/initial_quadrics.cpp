@@ -56,7 +56,7 @@ void QuadricBuilder::add_attributes(Quadric* also) {
 bool QuadricBuilder::may_fold(const Star& star) {
   const Vec3f n = star.normal(0);
   Int4 far = {};
-  for (const SpokeGroup& group : star.spoke_groups)
+  for (const CornerGroup& group : star.corner_groups)
     far |= (group.area > 0) & (dot(group.normal, n) < 0.71f);
   return any4(far);
 }
@@ -70,8 +70,8 @@ void QuadricBuilder::add_edges(const Star& star, Quadric& quadric) const {
 void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& quadric) const {
   float weight = kBorderWeight;
   if (edge.triangles == 2) {
-    const Index second = edge.first, first = star.spokes[second / 2].more[second % 2];
-    const Spoke &a = star.spokes[first / 2], &b = star.spokes[second / 2];
+    const Index second = edge.first, first = star.corners[second / 2].more[second % 2];
+    const IncidentCorner &a = star.corners[first / 2], &b = star.corners[second / 2];
     weight = fold_weight(star.normal(first / 2), star.normal(second / 2), first % 2 == second % 2);
     if (!input_.group.empty() && input_.group[a.corner / 4] != input_.group[b.corner / 4])
       weight = std::max(weight, kSeamWeight);
@@ -81,7 +81,7 @@ void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& q
   const Vec3f along = complex_.offset(star.vertex, edge.vertex);
   const float length_squared = dot(along, along);
   weight *= length_squared / static_cast<float>(edge.triangles);
-  for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
+  for (Index i = edge.first; i != kNone; i = star.corners[i / 2].more[i % 2]) {
     const Vec3f side = cross(along, star.normal(i / 2));
     const float length = std::sqrt(dot(side, side));
     if (length > 0)
@@ -92,9 +92,9 @@ void QuadricBuilder::add_edge(const Star& star, const StarEdge& edge, Quadric& q
 }
 
 // An edge is a seam where its faces use different wedges; as much as their attributes differ.
-float QuadricBuilder::seam_weight(const Spoke& a, Index side_a, const Spoke& b,
+float QuadricBuilder::seam_weight(const IncidentCorner& a, Index side_a, const IncidentCorner& b,
                                   Index side_b) const {
-  const auto far = [](const Spoke& s, Index side) {
+  const auto far = [](const IncidentCorner& s, Index side) {
     return side == 0 ? Complex::next(s.corner) : Complex::previous(s.corner);
   };
   const std::vector<Index>& wedge = wedges_->corner_wedge;

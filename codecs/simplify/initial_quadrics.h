@@ -28,7 +28,8 @@ class QuadricBuilder {
 
  private:
   void add_edge(const Star& star, const StarEdge& edge, Quadric& quadric) const;
-  float seam_weight(const Spoke& a, Index side_a, const Spoke& b, Index side_b) const;
+  float seam_weight(const IncidentCorner& a, Index side_a, const IncidentCorner& b,
+                    Index side_b) const;
 
   Complex& complex_;
   const SimplifyInput& input_;

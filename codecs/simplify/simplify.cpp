@@ -2,8 +2,8 @@
 
 #include <cassert>
 
-#include "codecs/simplify/free_edge.h"
-#include "codecs/simplify/half_edge.h"
+#include "codecs/simplify/edge_collapse.h"
+#include "codecs/simplify/half_edge_collapse.h"
 
 namespace pstrips::inline codecs {
 

@@ -73,8 +73,8 @@ float WedgeTable::largest_difference(Index a, Index b) const {
 float WedgeTable::live_weight(const Star& star) {
   float sum = 0;
   new_epoch();
-  for (const Spoke& spoke : star.spokes) {
-    const Index wedge = corner_wedge[spoke.corner];
+  for (const IncidentCorner& incident : star.corners) {
+    const Index wedge = corner_wedge[incident.corner];
     if (is_marked(wedge)) continue;
     mark(wedge, kNone);
     sum += weight_[wedge];
@@ -85,8 +85,8 @@ float WedgeTable::live_weight(const Star& star) {
 // Calls visit(corner of the star's vertex, corner of the other end) for the triangles of an edge.
 template <class Visit>
 void WedgeTable::for_each_triangle(const Star& star, const StarEdge& edge, Visit&& visit) const {
-  for (Index i = edge.first; i != kNone; i = star.spokes[i / 2].more[i % 2]) {
-    const Index corner = star.spokes[i / 2].corner;
+  for (Index i = edge.first; i != kNone; i = star.corners[i / 2].more[i % 2]) {
+    const Index corner = star.corners[i / 2].corner;
     visit(corner, i % 2 == 0 ? Complex::next(corner) : Complex::previous(corner));
   }
 }
@@ -115,12 +115,12 @@ bool WedgeTable::breaks_texture(const Star& star, const StarEdge& edge) {
     const float* const a = &attributes_[std::size_t{wedge} * count_ + texture_];
     return Vec3f{a[0], a[1], 0};
   };
-  return std::ranges::any_of(star.spokes, [&](const Spoke& spoke) {
-    const Index wedge = corner_wedge[spoke.corner];
-    if (spoke.next == edge.vertex || spoke.previous == edge.vertex || !is_marked(wedge))
-      return false;  // gone, or carried
-    return turns_over(place(corner_wedge[Complex::next(spoke.corner)]),
-                      place(corner_wedge[Complex::previous(spoke.corner)]), place(wedge),
+  return std::ranges::any_of(star.corners, [&](const IncidentCorner& incident) {
+    const Index wedge = corner_wedge[incident.corner];
+    if (incident.next == edge.vertex || incident.previous == edge.vertex || !is_marked(wedge))
+      return false;  // gone, or reassigned
+    return turns_over(place(corner_wedge[Complex::next(incident.corner)]),
+                      place(corner_wedge[Complex::previous(incident.corner)]), place(wedge),
                       place(corner_wedge[other(wedge)]));
   });
 }
@@ -156,7 +156,7 @@ void WedgeTable::replace(Index wedge, Index to, Vec3f offset, Quadric& quadric) 
   weight_[to] += weight_[wedge];
 }
 
-void WedgeTable::carry(Index wedge, Vec3f offset) {
+void WedgeTable::shift_term(Index wedge, Vec3f offset) {
   for (std::uint32_t k = 0; k < count_; ++k) {
     Term& term = terms_[std::size_t{wedge} * count_ + k];
     term.d += dot(term.g, offset);
@@ -168,13 +168,13 @@ void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, 
   // The two corners of a removed triangle correspond.
   new_epoch();
   Index any = kNone;
-  for (const Spoke& spoke : star.spokes) {
-    if (spoke.next != kept && spoke.previous != kept) continue;
-    const Index corner = spoke.corner;
-    mark_first(corner, spoke.next == kept ? Complex::next(corner) : Complex::previous(corner));
+  for (const IncidentCorner& incident : star.corners) {
+    if (incident.next != kept && incident.previous != kept) continue;
+    const Index corner = incident.corner;
+    mark_first(corner, incident.next == kept ? Complex::next(corner) : Complex::previous(corner));
   }
-  for (const Spoke& spoke : star.spokes) {
-    const Index corner = spoke.corner;
+  for (const IncidentCorner& incident : star.corners) {
+    const Index corner = incident.corner;
     const Index wedge = corner_wedge[corner];
     if (complex.is_dead(corner)) {
       any = std::min(any, corner_wedge[other(wedge)]);
@@ -184,7 +184,7 @@ void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, 
       corner_wedge[corner] = corner_wedge[other(wedge)];
     }
   }
-  Index last_carried = kNone;
+  Index last_reassigned = kNone;
   for (Index wedge = first_[star.vertex], after; wedge != kNone; wedge = after) {
     after = next_[wedge];
     if (!is_marked(wedge)) {  // in no triangle any more
@@ -197,12 +197,12 @@ void WedgeTable::collapse(const Complex& complex, const Star& star, Index kept, 
       replace(wedge, to, offset, quadric);
       continue;
     }
-    carry(wedge, offset);
-    next_[wedge] = last_carried;
-    last_carried = wedge;
+    shift_term(wedge, offset);
+    next_[wedge] = last_reassigned;
+    last_reassigned = wedge;
   }
   first_[star.vertex] = kNone;
-  for (Index wedge = last_carried, after; wedge != kNone; wedge = after) {
+  for (Index wedge = last_reassigned, after; wedge != kNone; wedge = after) {
     after = next_[wedge];
     next_[wedge] = first_[kept];
     first_[kept] = wedge;

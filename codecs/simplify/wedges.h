@@ -55,7 +55,8 @@ class WedgeTable {
 
   /// A vertex and its wedges move by `offset`.
   void move(Index vertex, Vec3f offset) {
-    for (Index wedge = first_[vertex]; wedge != kNone; wedge = next_[wedge]) carry(wedge, offset);
+    for (Index wedge = first_[vertex]; wedge != kNone; wedge = next_[wedge])
+      shift_term(wedge, offset);
   }
   /// Performs the half of a collapse that concerns wedges: records a move of every wedge at the
   /// star's vertex, `kept` being the other vertex, and renames the surviving corners.
@@ -88,7 +89,7 @@ class WedgeTable {
   void add_cost(Index wedge, Index to, Cost& sum) const;
   float conflict(Index wedge, Index a, Index b) const;
   void replace(Index wedge, Index to, Vec3f offset, Quadric& quadric);
-  void carry(Index wedge, Vec3f offset);
+  void shift_term(Index wedge, Vec3f offset);
 
   std::span<const float> attributes_;
   std::uint32_t count_;

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "codecs/simplify/simplify.h"
+#include "codecs/collapse.h"
 #include "core/progressive_strips.h"
 
 namespace pstrips::inline codecs {

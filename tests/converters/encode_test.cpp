@@ -161,7 +161,7 @@ TEST(Encode, ReportsHowCollapsesWereChosen) {
     EXPECT_EQ(reports[m].base_triangles, strips->bases[m].triangles);
     EXPECT_EQ(reports[m].stop, SimplifyStop::target);
   }
-  EXPECT_EQ(reports[0].forced, GuardCounts{});
+  EXPECT_EQ(reports[0].forced, ConstraintCounts{});
   EXPECT_GT(reports[1].refused.border + reports[1].refused.link, 0u);
 }
 

@@ -9,20 +9,20 @@ namespace pstrips {
 namespace {
 
 // The triangles around vertex 0 of a flat fan, as pairs of next and previous.
-Complex fan(const std::vector<std::pair<Index, Index>>& spokes) {
+Complex fan(const std::vector<std::pair<Index, Index>>& corners) {
   std::vector<double> positions(60);
   for (std::size_t i = 3; i < positions.size(); i += 3) {
     positions[i] = static_cast<double>(i);
     positions[i + 1] = static_cast<double>(i * i);
   }
   std::vector<Index> triangles;
-  for (const auto& [next, previous] : spokes)
+  for (const auto& [next, previous] : corners)
     triangles.insert(triangles.end(), {0, next, previous});
   return Complex(positions, {}, triangles);
 }
 
-bool is_regular(const std::vector<std::pair<Index, Index>>& spokes) {
-  Complex complex = fan(spokes);
+bool is_regular(const std::vector<std::pair<Index, Index>>& corners) {
+  Complex complex = fan(corners);
   Star star;
   complex.gather_regular(0, star);
   return star.is_regular();
@@ -46,7 +46,7 @@ TEST(Star, MeasuresItsTriangles) {
   Complex complex(positions, {}, triangles);
   Star star;
   complex.gather(0, star);
-  ASSERT_EQ(star.spokes.size(), 5u);
+  ASSERT_EQ(star.corners.size(), 5u);
   const Quadric sum = star.measure();
   const double unit = 2 * complex.scale[0] * complex.scale[1];  // of 2 model units
   const auto area = static_cast<float>(unit * unit / 2);

@@ -70,8 +70,8 @@ struct Manner {
 constexpr Manner kManners[] = {
     {"subset, qem", Placement::subset, Metric::qem},
     {"subset, memoryless", Placement::subset, Metric::memoryless},
-    {"free, qem", Placement::optimal, Metric::qem},
-    {"free, memoryless", Placement::optimal, Metric::memoryless},
+    {"optimal, qem", Placement::optimal, Metric::qem},
+    {"optimal, memoryless", Placement::optimal, Metric::memoryless},
 };
 
 // Performs a sequence on a plain list of triangles, checking each step by the letter of the header.
@@ -153,7 +153,7 @@ class Replay {
       if (expected.contains(from)) {
         ASSERT_EQ(target, expected[from]);
       } else if (used.contains(from)) {
-        ASSERT_EQ(target, kNone) << "a wedge in use that no removed triangle maps is carried";
+        ASSERT_EQ(target, kNone) << "a wedge in use that no removed triangle maps is reassigned";
       } else {
         ASSERT_NE(target, kNone) << "a wedge out of use ends";
       }
@@ -386,7 +386,7 @@ TEST(Simplify, FlattensAPlaneAtNoError) {
     replay.perform(sequence);
     EXPECT_EQ(sequence.triangles_left, 2u);
     EXPECT_LT(sequence.collapses.back().error, 1e-4 * bounding_box_diagonal(source.positions));
-    EXPECT_EQ(sequence.forced, GuardCounts{});
+    EXPECT_EQ(sequence.forced, ConstraintCounts{});
     EXPECT_LT(rms_over_diagonal(source, sequence), 1e-4);
     const std::vector<double> positions = positions_after(source, sequence);
     for (const Index w : replay.triangles())  // the four corners are left
@@ -463,8 +463,8 @@ TEST(Simplify, TurnsNoTriangleOverInTheTexture) {
       source.attributes.push_back(static_cast<float>(1e-6 * x));
   }
   ASSERT_EQ(mirrored(source, source.triangles), 0u);
-  SimplifyInput guarded = source.input();
-  guarded.texture = 0;
+  SimplifyInput constrained = source.input();
+  constrained.texture = 0;
   for (const Manner& manner : kManners) {
     SCOPED_TRACE(manner.name);
     const auto mirrored_after = [&](const CollapseSequence& sequence) {
@@ -473,10 +473,10 @@ TEST(Simplify, TurnsNoTriangleOverInTheTexture) {
       return mirrored(source, replay.triangles());
     };
     EXPECT_GT(mirrored_after(run(source, manner.to(60))), 10u);
-    const CollapseSequence sequence = simplify(guarded, manner.to(60));
+    const CollapseSequence sequence = simplify(constrained, manner.to(60));
     EXPECT_EQ(mirrored_after(sequence), 0u);
     EXPECT_GT(sequence.refused.texture, 0u);
-    EXPECT_EQ(sequence.forced, GuardCounts{});
+    EXPECT_EQ(sequence.forced, ConstraintCounts{});
   }
 }
 
@@ -494,7 +494,7 @@ TEST(Simplify, KeepsTopologyWhileGuardsHold) {
 }
 
 TEST(Simplify, CountsWhatGuardsRefuse) {
-  // A hole in a plane costs nothing to close, so the guard of borders is asked.
+  // A hole in a plane costs nothing to close, so the constraint of borders decides.
   Source source = flat_grid(20, 1);
   source.triangles.erase(source.triangles.begin() + 3 * 300, source.triangles.begin() + 3 * 302);
   source.group.clear();
@@ -502,7 +502,7 @@ TEST(Simplify, CountsWhatGuardsRefuse) {
     SCOPED_TRACE(manner.name);
     const CollapseSequence some = run(source, manner.to(40)), all = run(source, manner.to(0));
     EXPECT_GT(some.refused.border + some.refused.flip + some.refused.link, 0u);
-    EXPECT_EQ(some.forced, GuardCounts{});
+    EXPECT_EQ(some.forced, ConstraintCounts{});
     EXPECT_GT(all.forced.border + all.forced.link + all.forced.flip, 0u);
     EXPECT_GE(all.refused.border, all.forced.border);
   }

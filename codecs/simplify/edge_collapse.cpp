@@ -2,7 +2,7 @@
 //
 // [Garland97] the quadric error metric and its minimum, [Lindstrom98; Lindstrom99] the memoryless
 // metric: no history, only the faces there are, and their volume kept.
-#include "codecs/simplify/free_edge.h"
+#include "codecs/simplify/edge_collapse.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 
 #include "codecs/simplify/collapse_loop.h"
 #include "codecs/simplify/complex.h"
-#include "codecs/simplify/guards.h"
+#include "codecs/simplify/constraints.h"
 #include "codecs/simplify/initial_quadrics.h"
 #include "codecs/simplify/placement.h"
 #include "codecs/simplify/vertex_buckets.h"
@@ -29,9 +29,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // As for half edges.
 constexpr float kLengthShare = 1e-9f;
-constexpr float kCarriedShare = 1e-2f;
+constexpr float kReassignedShare = 1e-2f;
 constexpr float kForcedShare = 1;
-constexpr int kMaxGuardChecks = 16;
+constexpr int kMaxConstraintChecks = 16;
 
 float rounded_down(float error) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
@@ -60,7 +60,7 @@ class EdgeSimplifier {
       : input_(input),
         options_(options),
         memoryless_(options.metric == Metric::memoryless),
-        free_(options.placement == Placement::optimal),
+        optimal_(options.placement == Placement::optimal),
         complex_(input.positions, input.wedge_vertex, input.triangles),
         wedges_(wedge_table(input, complex_.diagonal)) {
     if (memoryless_) {
@@ -72,10 +72,10 @@ class EdgeSimplifier {
       attribute_errors_.resize(complex_.vertex_count());
     }
     large_.resize(complex_.vertex_count());
-    hold_.resize(complex_.vertex_count());
+    border_rank_.resize(complex_.vertex_count());
     for (Index v = 0; v < large_.size(); ++v)
       large_[v] = complex_.vertices[v].ring_size > kLargeRing;
-    if (free_) moved_.resize(complex_.vertex_count());
+    if (optimal_) moved_.resize(complex_.vertex_count());
     out_.triangles_left = input.triangles.size() / 3;
     if (options.max_error >= 0) {
       const double limit = options.max_error * complex_.scale[0] * complex_.scale[1];
@@ -100,11 +100,11 @@ class EdgeSimplifier {
   }
   // Whether the edge from v to x is priced with v, as a collapse of v onto x. Where it makes no
   // difference which end goes, it is priced with one of them: half the work. That is the one that
-  // guards would rather see go.
+  // constraints hold less.
   bool owns(Index v, Index x) const {
-    if (!free_ || wedges_) return true;
+    if (!optimal_ || wedges_) return true;
     if (is_large(v) != is_large(x)) return is_large(x);
-    return hold_[v] != hold_[x] ? hold_[v] < hold_[x] : v < x;
+    return border_rank_[v] != border_rank_[x] ? border_rank_[v] < border_rank_[x] : v < x;
   }
   void gather(Index v, Star& star);
   bool start_plain(Index v, Star& star);
@@ -136,9 +136,9 @@ class EdgeSimplifier {
 
   const SimplifyInput& input_;
   const SimplifyOptions& options_;
-  const bool memoryless_, free_;
+  const bool memoryless_, optimal_;
   Complex complex_;
-  Guards guards_{complex_};
+  CollapseConstraints constraints_{complex_};
   std::optional<WedgeTable> wedges_;
   QuadricBuilder builder_{complex_, input_, wedges_ ? &*wedges_ : nullptr};
   std::vector<Face> faces_;  // memoryless: of all triangles
@@ -147,8 +147,8 @@ class EdgeSimplifier {
   std::vector<Quadric> attribute_quadrics_;  // memoryless: what attributes demand, accumulated
   std::vector<float> attribute_errors_;      // and their constant terms
   std::vector<std::uint8_t> large_, moved_;
-  std::vector<std::uint8_t> hold_;  // 1 for what came to a border, 2 for where several meet
-  float most_error_ = kInfinity;    // squared, in the complex's units
+  std::vector<std::uint8_t> border_rank_;  // 1 for what came to a border, 2 for where several meet
+  float most_error_ = kInfinity;           // squared, in the complex's units
 
   Star star_, kept_star_, scratch_;
   std::vector<Index> moved_corners_;
@@ -175,7 +175,7 @@ void EdgeSimplifier::gather(Index v, Star& star) {
     complex_.gather(v, star);
   else
     complex_.gather_regular(v, star);
-  if (is_large(v) && star.spokes.size() <= kLargeRing) {
+  if (is_large(v) && star.corners.size() <= kLargeRing) {
     large_[v] = 0;
     if (memoryless_) survey(v, star);
   }
@@ -237,7 +237,7 @@ void EdgeSimplifier::start(Index v, Star& star) {
   record.regular = star.open_edges == 0 && std::ranges::all_of(star.edges, [](const StarEdge& e) {
                      return e.outgoing == 1;
                    });
-  hold_[v] = star.open_edges > 2 ? 2 : star.open_edges > 0 ? 1 : 0;
+  border_rank_[v] = star.open_edges > 2 ? 2 : star.open_edges > 0 ? 1 : 0;
   record.quadric.add_matrix(star.measure());
   builder_.add_edges(star, record.quadric);
   if (memoryless_) survey(v, star);
@@ -254,7 +254,7 @@ void EdgeSimplifier::update_face(Index t) {
 
 void EdgeSimplifier::survey(Index v, Star& star) {
   Surroundings around;
-  for (const Spoke& spoke : star.spokes) around.add(faces_[spoke.corner / 4]);
+  for (const IncidentCorner& incident : star.corners) around.add(faces_[incident.corner / 4]);
   if (has_line_terms(v)) {
     star.measure();
     builder_.add_edges(star, around.planes);
@@ -275,7 +275,7 @@ void EdgeSimplifier::survey(Index v) {
   around_[v] = around;
 }
 
-// Fills costs and places of the star's edges, guards aside; those that it does not own cost
+// Fills costs and places of the star's edges, constraints aside; those that it does not own cost
 // infinity.
 void EdgeSimplifier::evaluate(const Star& star) {
   evaluate(star, [&](Index x) { return owns(star.vertex, x); });
@@ -336,9 +336,9 @@ EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edg
   sum.quadric.b = slope * -1;  // all planes pass through their vertex
   sum.constant = dot(slope, offset);
   sum.volume = {mine.area + its.area, dot(its.area, offset)};
-  for (const Spoke& spoke : star.spokes) {
-    if (spoke.next != p && spoke.previous != p) continue;
-    const Face& face = faces_[spoke.corner / 4];
+  for (const IncidentCorner& incident : star.corners) {
+    if (incident.next != p && incident.previous != p) continue;
+    const Face& face = faces_[incident.corner / 4];
     sum.quadric.add_plane(face.normal, -face.area);
     sum.volume.area = sum.volume.area - face.normal * face.area;
   }
@@ -352,7 +352,7 @@ EdgeSimplifier::Sum EdgeSimplifier::sum_of(const Star& star, const StarEdge& edg
 }
 
 // Prices four edges of a star at once, given by their places in it, where nothing but the faces
-// around them counts. Needs a star as gather_regular() makes it: spoke i is on edge i.
+// around them counts. Needs a star as gather_regular() makes it: corner i is on edge i.
 void EdgeSimplifier::price_plain(const Star& star, const Index (&at)[4]) {
   const Surroundings& mine = around_[star.vertex];
   const Surroundings* its[4];
@@ -362,8 +362,9 @@ void EdgeSimplifier::price_plain(const Star& star, const Index (&at)[4]) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Index p = star.edges[at[i]].vertex;
     its[i] = &around_[p];
-    faces[0][i] = &faces_[star.spokes[at[i]].corner / 4];
-    faces[1][i] = &faces_[std::ranges::find(star.spokes, p, &Spoke::previous)->corner / 4];
+    faces[0][i] = &faces_[star.corners[at[i]].corner / 4];
+    faces[1][i] =
+        &faces_[std::ranges::find(star.corners, p, &IncidentCorner::previous)->corner / 4];
     ends[i] = &complex_.points[p];
   }
   // Four floats of each, from the `first` on.
@@ -404,7 +405,7 @@ void EdgeSimplifier::price_plain(const Star& star, const Index (&at)[4]) {
     sums.add_plane(normal, -area);
   }
 
-  const Vec3x4 place = free_ ? best_place(sums) : o;
+  const Vec3x4 place = optimal_ ? best_place(sums) : o;
   const Float4 error = max4(constant + sums.at(place), Float4{});
   const Float4 cost = error + kLengthShare * mine.planes.weight * dot(o, o);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -444,15 +445,15 @@ void EdgeSimplifier::price(const Star& star, StarEdge& edge, float live_weight) 
     Sum sum = sum_of(star, edge);
     sum.quadric.b = sum.quadric.b + wedge_cost.linear;
     sum.constant += wedge_cost.constant;
-    if (free_) edge.place = best_place(sum.quadric, sum.volume, offset);
+    if (optimal_) edge.place = best_place(sum.quadric, sum.volume, offset);
     error = sum.constant + sum.quadric.at(edge.place);
     if (memoryless_) weight = around_[q].planes.weight;
   }
   const float length = dot(offset, offset);
-  const float carried = wedges_ ? std::max(0.f, live_weight - wedge_cost.mapped_weight) : 0.f;
+  const float reassigned = wedges_ ? std::max(0.f, live_weight - wedge_cost.mapped_weight) : 0.f;
   edge.error = std::max(error, 0.f);
   edge.cost = edge.error + kLengthShare * weight * length + wedge_cost.conflicts +
-              kCarriedShare * carried * length;
+              kReassignedShare * reassigned * length;
   if (!(edge.cost < kInfinity)) edge.cost = kInfinity;
   apply_limit(star, edge, wedge_cost.at(edge.place));
 }
@@ -483,17 +484,18 @@ const StarEdge* EdgeSimplifier::choose(Index q, float limit) {
       set_key(q, large ? best->cost * 1.25f : best->cost);
       return nullptr;
     }
-    if (best->refused != Guard::none) return best;
+    if (best->refused != CollapseConstraint::none) return best;
     if (checks == 0) star_.measure();
-    const bool give_up = large && checks == kMaxGuardChecks;
+    const bool give_up = large && checks == kMaxConstraintChecks;
     for (StarEdge& edge : star_.edges) {
-      if (give_up ? edge.refused != Guard::none : &edge != best) continue;
+      if (give_up ? edge.refused != CollapseConstraint::none : &edge != best) continue;
       const Vec3f offset = complex_.offset(q, edge.vertex);
-      Guard refused =
-          give_up ? Guard::flip : guards_.check(star_, edge, edge.place, edge.place - offset);
-      if (refused == Guard::none && wedges_ && wedges_->breaks_texture(star_, edge))
-        refused = Guard::texture;
-      if (refused == Guard::none) return best;
+      CollapseConstraint refused =
+          give_up ? CollapseConstraint::flip
+                  : constraints_.check(star_, edge, edge.place, edge.place - offset);
+      if (refused == CollapseConstraint::none && wedges_ && wedges_->breaks_texture(star_, edge))
+        refused = CollapseConstraint::texture;
+      if (refused == CollapseConstraint::none) return best;
       count(out_.refused, refused);
       edge.refused = refused;
       edge.cost += kForcedShare * complex_.vertices[q].quadric.weight * dot(offset, offset);
@@ -510,14 +512,14 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
   if (wedges_) wedge_cost = wedges_->cost(star_, edge);
 
   moved_corners_.clear();
-  for (const Spoke& spoke : star_.spokes) {
-    if (spoke.next == p || spoke.previous == p) {
-      complex_.kill(spoke.corner);
-      if (memoryless_) faces_[spoke.corner / 4] = {};
+  for (const IncidentCorner& incident : star_.corners) {
+    if (incident.next == p || incident.previous == p) {
+      complex_.kill(incident.corner);
+      if (memoryless_) faces_[incident.corner / 4] = {};
       --out_.triangles_left;
     } else {
-      complex_.corner_vertex[spoke.corner] = p;
-      moved_corners_.push_back(spoke.corner);
+      complex_.corner_vertex[incident.corner] = p;
+      moved_corners_.push_back(incident.corner);
     }
   }
   Quadric& from = complex_.vertices[q].quadric;
@@ -536,12 +538,12 @@ void EdgeSimplifier::collapse(Index q, const StarEdge& edge) {
   if (becomes_large) large_[p] = 1;
   complex_.vertices[q].ring_size = 0;
   count(out_.forced, edge.refused);
-  if (edge.refused != Guard::none) {
+  if (edge.refused != CollapseConstraint::none) {
     complex_.vertices[p].regular = false;
     for (const StarEdge& other : star_.edges) complex_.vertices[other.vertex].regular = false;
   }
   complex_.vertices[p].regular &= complex_.vertices[q].regular;
-  hold_[p] = std::max(hold_[p], hold_[q]);
+  border_rank_[p] = std::max(border_rank_[p], border_rank_[q]);
   complex_.vertices[q].key = kInfinity;
   if (has_moved) {
     complex_.points[p].position = complex_.points[p].position + shift;
@@ -575,7 +577,7 @@ void EdgeSimplifier::note_collapse(Index q, Index p, std::size_t first_move) {
   last_error_ = std::max(
       last_error_, static_cast<float>(std::min(error, double{std::numeric_limits<float>::max()})));
   out_.collapses.push_back({q, p, last_error_, static_cast<Index>(out_.moves.size() - first_move)});
-  if (!free_) return;
+  if (!optimal_) return;
   const auto place = moved_[p] ? complex_.model_position(p) : input_position(p);
   out_.placements.insert(out_.placements.end(), place.begin(), place.end());
 }
@@ -611,7 +613,8 @@ void EdgeSimplifier::look_around(Index p, bool has_moved, bool becomes_large) {
     const Index x = edge.vertex;
     if (complex_.is_locked(x) || edge.cost == kInfinity || !owns(x, p)) continue;
     float bound = owns(p, x) ? edge.error : edge.cost;
-    if (!free_ && memoryless_ && !is_large(x)) bound = around_[x].planes.at(complex_.offset(x, p));
+    if (!optimal_ && memoryless_ && !is_large(x))
+      bound = around_[x].planes.at(complex_.offset(x, p));
     lower_key(x, bound);
   }
 }

@@ -12,16 +12,16 @@ namespace pstrips::inline codecs {
 constexpr Index kLargeRing = 64;
 
 /// Asks whether collapses keep the shape and the topology of a complex.
-class Guards {
+class CollapseConstraints {
  public:
   /// `complex` must outlive it.
-  explicit Guards(Complex& complex) : complex_(complex) {}
+  explicit CollapseConstraints(Complex& complex) : complex_(complex) {}
 
   /// For the collapse of the star's vertex onto the other end of `edge`, which stays where it is.
   /// Cost O(both rings) until a ring is large. The star must have been measured.
-  Guard check(const Star& star, const StarEdge& edge);
+  CollapseConstraint check(const Star& star, const StarEdge& edge);
   /// The same when both ends move, by `shift` and `kept_shift`.
-  Guard check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f kept_shift);
+  CollapseConstraint check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f kept_shift);
 
  private:
   bool breaks_link(const Star& star, Index p);
@@ -34,12 +34,12 @@ class Guards {
   Complex& complex_;
 };
 
-/// Adds one to the count of `guard`, if there is one.
-inline void count(GuardCounts& counts, Guard guard) {
-  if (guard == Guard::border) ++counts.border;
-  if (guard == Guard::link) ++counts.link;
-  if (guard == Guard::flip) ++counts.flip;
-  if (guard == Guard::texture) ++counts.texture;
+/// Adds one to the count of `constraint`, if there is one.
+inline void count(ConstraintCounts& counts, CollapseConstraint constraint) {
+  if (constraint == CollapseConstraint::border) ++counts.border;
+  if (constraint == CollapseConstraint::link) ++counts.link;
+  if (constraint == CollapseConstraint::flip) ++counts.flip;
+  if (constraint == CollapseConstraint::texture) ++counts.texture;
 }
 
 }  // namespace pstrips::inline codecs

@@ -4,7 +4,7 @@
 
 namespace pstrips::inline codecs {
 
-/// simplify() with free placement, or with the memoryless metric, in general. A vertex stands in
+/// simplify() with optimal placement, or with the memoryless metric, in general. A vertex stands in
 /// the heap once, under the cost that its cheapest collapse had when it was last looked at; it is
 /// looked at again when it comes up.
 CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOptions& options,

@@ -8,6 +8,6 @@ namespace pstrips::inline codecs {
 /// place where it stood: its distance, squared, to the nearest of the faces that the star becomes
 /// and of their edges at the other end. Planes of faces do not tell: the tip of a thin spike lies
 /// near all of them wherever it goes. Cost O(star); the star must have been measured.
-float squared_gap(const Star& star, Vec3f offset);
+float squared_new_face_distance(const Star& star, Vec3f offset);
 
 }  // namespace pstrips::inline codecs

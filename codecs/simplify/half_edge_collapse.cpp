@@ -2,7 +2,7 @@
 //
 // [Garland97] the quadric error metric, [Hoppe99b] its wedge attributes, [Kim04 §5] its use as the
 // order of strip-edge collapses; [Lindstrom98] the metric without a history.
-#include "codecs/simplify/half_edge.h"
+#include "codecs/simplify/half_edge_collapse.h"
 
 #include <algorithm>
 #include <cassert>
@@ -13,9 +13,9 @@
 
 #include "codecs/simplify/collapse_loop.h"
 #include "codecs/simplify/complex.h"
-#include "codecs/simplify/gap.h"
-#include "codecs/simplify/guards.h"
+#include "codecs/simplify/constraints.h"
 #include "codecs/simplify/initial_quadrics.h"
+#include "codecs/simplify/new_face_distance.h"
 #include "codecs/simplify/vertex_buckets.h"
 #include "codecs/simplify/wedges.h"
 #include "core/parallel.h"
@@ -26,15 +26,16 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Shares of the squared length of the collapse, times the weight of what moves, in the order:
-// always, so that flat places keep round triangles; per carried wedge; when a guard refused.
+// always, so that flat places keep round triangles; per reassigned wedge; when a constraint
+// refused.
 constexpr float kLengthShare = 1e-9f;
-constexpr float kCarriedShare = 1e-2f;
+constexpr float kReassignedShare = 1e-2f;
 constexpr float kForcedShare = 1;
 
 constexpr float kMaxCost = std::numeric_limits<float>::max();
 
-// Guard checks of one large ring in a row.
-constexpr int kMaxGuardChecks = 16;
+// CollapseConstraint checks of one large ring in a row.
+constexpr int kMaxConstraintChecks = 16;
 
 class HalfEdgeSimplifier {
  public:
@@ -73,7 +74,7 @@ class HalfEdgeSimplifier {
   void apply_limit(Candidate& at) const;
   StarEdge* cheapest(Candidate& at) const;
   const StarEdge* choose(float limit);
-  Guard check(const StarEdge& edge);
+  CollapseConstraint check(const StarEdge& edge);
   void collapse(const StarEdge& edge);
   void note_collapse(Index p, std::size_t first_move);
 
@@ -81,7 +82,7 @@ class HalfEdgeSimplifier {
   const SimplifyOptions& options_;
   const bool memoryless_;
   Complex complex_;
-  Guards guards_{complex_};
+  CollapseConstraints constraints_{complex_};
   std::optional<WedgeTable> wedges_;
   QuadricBuilder builder_{complex_, input_, wedges_ ? &*wedges_ : nullptr};
   std::optional<VertexBuckets> queue_;
@@ -168,9 +169,9 @@ void HalfEdgeSimplifier::start(Index v, Candidate& at) {
 }
 
 bool HalfEdgeSimplifier::is_one_group(const Star& star) const {
-  const auto group = [&](const Spoke& s) { return input_.group[s.corner / 4]; };
-  return input_.group.empty() || std::ranges::all_of(star.spokes, [&](const Spoke& s) {
-           return group(s) == group(star.spokes[0]);
+  const auto group = [&](const IncidentCorner& s) { return input_.group[s.corner / 4]; };
+  return input_.group.empty() || std::ranges::all_of(star.corners, [&](const IncidentCorner& s) {
+           return group(s) == group(star.corners[0]);
          });
 }
 
@@ -201,7 +202,7 @@ void HalfEdgeSimplifier::weigh(Candidate& at, bool is_plain) const {
   at.quadric.weight = weight;
 }
 
-// Fills the costs of the star's edges, guards aside.
+// Fills the costs of the star's edges, constraints aside.
 void HalfEdgeSimplifier::evaluate(Candidate& at) {
   price(at);
   if (wedges_) price_wedges(at);
@@ -241,7 +242,7 @@ void HalfEdgeSimplifier::price_wedges(Candidate& at) {
     edge.error += error;
     edge.cost +=
         error + cost.conflicts +
-        kCarriedShare * std::max(0.f, live_weight - cost.mapped_weight) * dot(offset, offset);
+        kReassignedShare * std::max(0.f, live_weight - cost.mapped_weight) * dot(offset, offset);
   }
 }
 
@@ -256,20 +257,20 @@ void HalfEdgeSimplifier::apply_limit(Candidate& at) const {
   }
 }
 
-// The edge that costs least, with its gap: that counts for the weight of the whole star. Gaps are
-// asked for only where they may decide. Null if the star has no edges.
+// The edge that costs least, with its distance to the new faces: that counts for the weight of the
+// whole star. These are computed only where they may decide. Null if the star has no edges.
 StarEdge* HalfEdgeSimplifier::cheapest(Candidate& at) const {
-  const bool large = at.star.spokes.size() > kLargeRing;
+  const bool large = at.star.corners.size() > kLargeRing;
   for (;;) {
     StarEdge* best = nullptr;
     for (StarEdge& edge : at.star.edges)
       if (!best || edge.cost < best->cost ||
           (edge.cost == best->cost && edge.vertex < best->vertex))
         best = &edge;
-    if (!best || best->has_gap || large || best->cost == kInfinity) return best;
-    best->has_gap = true;
-    best->cost +=
-        at.quadric.weight * squared_gap(at.star, complex_.offset(at.star.vertex, best->vertex));
+    if (!best || best->counts_new_faces || large || best->cost == kInfinity) return best;
+    best->counts_new_faces = true;
+    best->cost += at.quadric.weight *
+                  squared_new_face_distance(at.star, complex_.offset(at.star.vertex, best->vertex));
   }
 }
 
@@ -277,7 +278,7 @@ StarEdge* HalfEdgeSimplifier::cheapest(Candidate& at) const {
 // dearer and compared again. Null after the vertex was put back or has no edge left.
 const StarEdge* HalfEdgeSimplifier::choose(float limit) {
   const Index q = now_.star.vertex;
-  const bool large = now_.star.spokes.size() > kLargeRing;
+  const bool large = now_.star.corners.size() > kLargeRing;
   for (int checks = 0;; ++checks) {
     StarEdge* const best = cheapest(now_);
     if (!best || best->cost == kInfinity) return nullptr;
@@ -286,12 +287,12 @@ const StarEdge* HalfEdgeSimplifier::choose(float limit) {
       queue_->put(q, large ? std::min(2 * best->cost, kMaxCost) : best->cost);
       return nullptr;
     }
-    if (best->refused != Guard::none) return best;
-    const bool give_up = large && checks == kMaxGuardChecks;
+    if (best->refused != CollapseConstraint::none) return best;
+    const bool give_up = large && checks == kMaxConstraintChecks;
     for (StarEdge& edge : now_.star.edges) {
-      if (give_up ? edge.refused != Guard::none : &edge != best) continue;
-      edge.refused = give_up ? Guard::flip : check(edge);
-      if (edge.refused == Guard::none) return best;
+      if (give_up ? edge.refused != CollapseConstraint::none : &edge != best) continue;
+      edge.refused = give_up ? CollapseConstraint::flip : check(edge);
+      if (edge.refused == CollapseConstraint::none) return best;
       count(out_.refused, edge.refused);
       const Vec3f offset = complex_.offset(q, edge.vertex);
       edge.cost += kForcedShare * now_.quadric.weight * dot(offset, offset);
@@ -299,11 +300,12 @@ const StarEdge* HalfEdgeSimplifier::choose(float limit) {
   }
 }
 
-Guard HalfEdgeSimplifier::check(const StarEdge& edge) {
-  const Guard guard = guards_.check(now_.star, edge);
-  return guard == Guard::none && wedges_ && wedges_->breaks_texture(now_.star, edge)
-             ? Guard::texture
-             : guard;
+CollapseConstraint HalfEdgeSimplifier::check(const StarEdge& edge) {
+  const CollapseConstraint constraint = constraints_.check(now_.star, edge);
+  return constraint == CollapseConstraint::none && wedges_ &&
+                 wedges_->breaks_texture(now_.star, edge)
+             ? CollapseConstraint::texture
+             : constraint;
 }
 
 // What the vertices around cost now is found when they come up: errors rarely fall.
@@ -313,13 +315,13 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
   const std::size_t first_move = out_.moves.size();
 
   moved_.clear();
-  for (const Spoke& spoke : now_.star.spokes) {
-    if (spoke.next == p || spoke.previous == p) {
-      complex_.kill(spoke.corner);
+  for (const IncidentCorner& incident : now_.star.corners) {
+    if (incident.next == p || incident.previous == p) {
+      complex_.kill(incident.corner);
       --out_.triangles_left;
     } else {
-      complex_.corner_vertex[spoke.corner] = p;
-      moved_.push_back(spoke.corner);
+      complex_.corner_vertex[incident.corner] = p;
+      moved_.push_back(incident.corner);
     }
   }
   VertexRecord &from = complex_.vertices[q], &to = complex_.vertices[p];
@@ -344,7 +346,7 @@ void HalfEdgeSimplifier::collapse(const StarEdge& edge) {
       error += std::exchange(to.extra_error, 0.f);
   }
   count(out_.forced, edge.refused);
-  if (edge.refused != Guard::none)
+  if (edge.refused != CollapseConstraint::none)
     for (const StarEdge& other : now_.star.edges) complex_.vertices[other.vertex].regular = false;
   to.regular &= from.regular;
   note_collapse(p, first_move);

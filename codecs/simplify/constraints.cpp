@@ -1,4 +1,4 @@
-#include "codecs/simplify/guards.h"
+#include "codecs/simplify/constraints.h"
 
 #include <algorithm>
 
@@ -39,24 +39,26 @@ bool face_flips(Vec3f a, Vec3f b, Vec3f shift) {
 
 }  // namespace
 
-Guard Guards::check(const Star& star, const StarEdge& edge) {
-  if (breaks_border(star, edge)) return Guard::border;
-  if (breaks_link(star, edge.vertex)) return Guard::link;
-  return flips(star, edge.vertex, complex_.offset(star.vertex, edge.vertex)) ? Guard::flip
-                                                                             : Guard::none;
+CollapseConstraint CollapseConstraints::check(const Star& star, const StarEdge& edge) {
+  if (breaks_border(star, edge)) return CollapseConstraint::border;
+  if (breaks_link(star, edge.vertex)) return CollapseConstraint::link;
+  return flips(star, edge.vertex, complex_.offset(star.vertex, edge.vertex))
+             ? CollapseConstraint::flip
+             : CollapseConstraint::none;
 }
 
-Guard Guards::check(const Star& star, const StarEdge& edge, Vec3f shift, Vec3f kept_shift) {
-  if (breaks_border(star, edge)) return Guard::border;
-  if (breaks_link(star, edge.vertex)) return Guard::link;
+CollapseConstraint CollapseConstraints::check(const Star& star, const StarEdge& edge, Vec3f shift,
+                                              Vec3f kept_shift) {
+  if (breaks_border(star, edge)) return CollapseConstraint::border;
+  if (breaks_link(star, edge.vertex)) return CollapseConstraint::link;
   return flips(star, edge.vertex, shift) || flips_kept(star.vertex, edge.vertex, kept_shift)
-             ? Guard::flip
-             : Guard::none;
+             ? CollapseConstraint::flip
+             : CollapseConstraint::none;
 }
 
 // What breaks_link() says where every edge at q and p has two triangles: each neighbour of p is the
 // next of one of its corners, and those that q has too are to be the two on triangles with both.
-bool Guards::breaks_regular_link(const Star& star, Index p) {
+bool CollapseConstraints::breaks_regular_link(const Star& star, Index p) {
   Int4 shared = {};
   for (const Index corner : complex_.ring(p)) {
     const Index neighbour = complex_.corner_vertex[Complex::next(corner)];
@@ -65,15 +67,16 @@ bool Guards::breaks_regular_link(const Star& star, Index p) {
     for (const EdgeGroup& group : star.edge_groups) shared += group.vertex == x;
   }
   if (shared[0] + shared[1] + shared[2] + shared[3] != -2) return true;
-  if (star.spokes.size() != 3) return false;
-  for (const Spoke& spoke : star.spokes)
-    if (spoke.next != p && spoke.previous != p) return has_triangle(p, spoke.next, spoke.previous);
+  if (star.corners.size() != 3) return false;
+  for (const IncidentCorner& incident : star.corners)
+    if (incident.next != p && incident.previous != p)
+      return has_triangle(p, incident.next, incident.previous);
   return false;
 }
 
 // Link condition: what p and q both neighbour is on a triangle with both, and no two faces become
 // one. Not told apart in time counts as broken.
-bool Guards::breaks_link(const Star& star, Index p) {
+bool CollapseConstraints::breaks_link(const Star& star, Index p) {
   const auto is_small = [&](Index v) {
     const VertexRecord& record = complex_.vertices[v];
     return record.regular && record.ring_size <= kMaxForPairs;
@@ -87,25 +90,25 @@ bool Guards::breaks_link(const Star& star, Index p) {
       marks[complex_.corner_vertex[Complex::next(corner)]] = near;
       marks[complex_.corner_vertex[Complex::previous(corner)]] = near;
     }
-  for (const Spoke& spoke : star.spokes) {
-    if (spoke.next == p) marks[spoke.previous] = apex;
-    if (spoke.previous == p) marks[spoke.next] = apex;
+  for (const IncidentCorner& incident : star.corners) {
+    if (incident.next == p) marks[incident.previous] = apex;
+    if (incident.previous == p) marks[incident.next] = apex;
   }
-  for (const Spoke& spoke : star.spokes) {
-    if (spoke.next == p || spoke.previous == p) continue;
+  for (const IncidentCorner& incident : star.corners) {
+    if (incident.next == p || incident.previous == p) continue;
     int apexes = 0;
-    for (const Index x : {spoke.next, spoke.previous}) {
+    for (const Index x : {incident.next, incident.previous}) {
       if (marks[x] == apex)
         ++apexes;
       else if (large ? has_neighbour(x, p) : marks[x] == near)
         return true;
     }
-    if (apexes == 2 && has_triangle(p, spoke.next, spoke.previous)) return true;
+    if (apexes == 2 && has_triangle(p, incident.next, incident.previous)) return true;
   }
   return false;
 }
 
-bool Guards::has_neighbour(Index vertex, Index other) {
+bool CollapseConstraints::has_neighbour(Index vertex, Index other) {
   if (complex_.vertices[vertex].ring_size > 4 * kLargeRing) return true;
   return std::ranges::any_of(complex_.ring(vertex), [&](Index corner) {
     return complex_.corner_vertex[Complex::next(corner)] == other ||
@@ -113,7 +116,7 @@ bool Guards::has_neighbour(Index vertex, Index other) {
   });
 }
 
-bool Guards::has_triangle(Index a, Index b, Index c) {
+bool CollapseConstraints::has_triangle(Index a, Index b, Index c) {
   const auto size = [&](Index v) { return complex_.vertices[v].ring_size; };
   if (size(b) < size(a)) std::swap(a, b);
   if (size(c) < size(a)) std::swap(a, c);
@@ -125,10 +128,10 @@ bool Guards::has_triangle(Index a, Index b, Index c) {
   });
 }
 
-// As face_flips() for four faces at once; those that may have become slivers are asked singly.
-bool Guards::flips(const Star& star, Index p, Vec3f shift) const {
-  for (std::size_t g = 0; g < star.spoke_groups.size(); ++g) {
-    const SpokeGroup& group = star.spoke_groups[g];
+// As face_flips() for four faces at once; those that may have become slivers are looked at singly.
+bool CollapseConstraints::flips(const Star& star, Index p, Vec3f shift) const {
+  for (std::size_t g = 0; g < star.corner_groups.size(); ++g) {
+    const CornerGroup& group = star.corner_groups[g];
     const Vec3x4 u = group.next - shift, v = group.previous - shift, w = u - v;
     const Vec3x4 after = cross(u, v);
     const Float4 turn = dot(after, group.normal), size = dot(after, after);
@@ -136,9 +139,9 @@ bool Guards::flips(const Star& star, Index p, Vec3f shift) const {
     const Int4 turns = (turn <= 0) | (turn * turn < kLeastCosine * kLeastCosine * size);
     const Int4 suspect = (group.area > 0) & (turns | (size < kSliver * kSliver * length * length));
     if (!any4(suspect)) continue;
-    for (std::size_t i = 4 * g; i < std::min(4 * g + 4, star.spokes.size()); ++i) {
-      const Spoke& spoke = star.spokes[i];
-      if (suspect[i % 4] == 0 || spoke.next == p || spoke.previous == p) continue;
+    for (std::size_t i = 4 * g; i < std::min(4 * g + 4, star.corners.size()); ++i) {
+      const IncidentCorner& incident = star.corners[i];
+      if (suspect[i % 4] == 0 || incident.next == p || incident.previous == p) continue;
       if (turns[i % 4] != 0 ||
           face_flips(group.next.lane(i % 4), group.previous.lane(i % 4), shift))
         return true;
@@ -147,7 +150,7 @@ bool Guards::flips(const Star& star, Index p, Vec3f shift) const {
   return false;
 }
 
-bool Guards::flips_kept(Index q, Index p, Vec3f shift) {
+bool CollapseConstraints::flips_kept(Index q, Index p, Vec3f shift) {
   if (shift.x == 0 && shift.y == 0 && shift.z == 0) return false;
   return std::ranges::any_of(complex_.ring(p), [&](Index corner) {
     const Index next = complex_.corner_vertex[Complex::next(corner)];
