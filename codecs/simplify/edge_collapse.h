@@ -5,9 +5,9 @@
 namespace pstrips::inline codecs {
 
 /// simplify() with optimal placement, or with the memoryless metric, in general. A vertex stands in
-/// the heap once, under the cost that its cheapest collapse had when it was last looked at; it is
+/// the queue once, under the cost that its cheapest collapse had when it was last looked at; it is
 /// looked at again when it comes up.
-CollapseSequence simplify_edges(const SimplifyInput& input, const SimplifyOptions& options,
+CollapseSequence collapse_edges(const SimplifyInput& input, const SimplifyOptions& options,
                                 const Progress& progress);
 
 }  // namespace pstrips::inline codecs

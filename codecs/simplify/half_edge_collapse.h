@@ -8,7 +8,7 @@ namespace pstrips::inline codecs {
 /// was last looked at, and is looked at again when it comes up; nothing else is kept up to date.
 /// Costs that have fallen meanwhile are found late. They rarely fall: looking at the kept vertex
 /// and its neighbours after each collapse gave levels no nearer to the source.
-CollapseSequence simplify_half_edges(const SimplifyInput& input, const SimplifyOptions& options,
+CollapseSequence collapse_half_edges(const SimplifyInput& input, const SimplifyOptions& options,
                                      const Progress& progress);
 
 }  // namespace pstrips::inline codecs

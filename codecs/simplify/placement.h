@@ -29,6 +29,7 @@ struct EdgeSums {
   Vec3x4 b;
   Vec3x4 area;
   Float4 volume = {};
+  Float4 constant = {};  ///< of the quadric
 
   void add_plane(const Vec3x4& unit_normal, Float4 amount);
   /// As Quadric::at().

@@ -11,8 +11,8 @@ CollapseSequence simplify(const SimplifyInput& input, const SimplifyOptions& opt
                           const Progress& progress) {
   assert(input.positions.size() % 3 == 0 && input.triangles.size() % 3 == 0);
   assert(input.group.empty() || input.group.size() == input.triangles.size() / 3);
-  if (options.placement == Placement::subset) return simplify_half_edges(input, options, progress);
-  return simplify_edges(input, options, progress);
+  if (options.placement == Placement::subset) return collapse_half_edges(input, options, progress);
+  return collapse_edges(input, options, progress);
 }
 
 }  // namespace pstrips::inline codecs

@@ -64,6 +64,15 @@ struct Star {
   bool is_regular() const;
   /// Fills normals and areas; returns the quadric of the triangles. [Garland97 §3.4]
   Quadric measure();
+  /// The edge that costs least, of equals the one to the lowest vertex; null if there is none.
+  StarEdge* cheapest() const {
+    StarEdge* best = nullptr;
+    for (StarEdge& edge : edges)
+      if (!best || edge.cost < best->cost ||
+          (edge.cost == best->cost && edge.vertex < best->vertex))
+        best = &edge;
+    return best;
+  }
   Vec3f normal(Index corner) const { return corner_groups[corner / 4].normal.lane(corner % 4); }
 };
 
