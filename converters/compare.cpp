@@ -9,6 +9,7 @@
 #include "codecs/measure/measure.h"
 #include "codecs/triangulate/triangulate.h"
 #include "converters/merge.h"
+#include "core/group_by.h"
 
 namespace pstrips::inline converters {
 namespace {
@@ -179,15 +180,14 @@ void number_faces(Side& a, Side& b, const Common& common) {
 
 IdLists vertices_of(const Side& side) {
   const Mesh& mesh = *side.mesh;
-  Ids first(std::size_t{mesh.vertex_count()} + 1, 0), ids(mesh.wedge_count());
-  for (Index w = 0; w < mesh.wedge_count(); ++w) ++first[mesh.vertex_of(w) + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  Ids at(first.begin(), first.end() - 1);
-  for (Index w = 0; w < mesh.wedge_count(); ++w) ids[at[mesh.vertex_of(w)]++] = side.wedge_ids[w];
+  Grouped<Index> ids = group_each<Index>(mesh.vertex_count(), [&](auto&& visit) {
+    for (Index w = 0; w < mesh.wedge_count(); ++w)
+      visit(mesh.vertex_of(w), [&] { return side.wedge_ids[w]; });
+  });
   IdLists out;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    std::sort(ids.begin() + first[v], ids.begin() + first[v + 1]);
-    out.add(std::span(ids).subspan(first[v], first[v + 1] - first[v]));
+    std::ranges::sort(ids[v]);
+    out.add(ids[v]);
   }
   return out;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/group_by.h"
+
 namespace pstrips::inline converters {
 namespace {
 
@@ -68,32 +70,15 @@ class GroupFaces {
   std::vector<Index> local_, global_, corners_, face_first_{0};
 };
 
-// Where the elements of each group are in `sorted`, groups + 1 places.
-struct ByGroup {
-  std::vector<std::size_t> first;
-  std::vector<Index> sorted;
-};
-
-template <class GroupOf>
-ByGroup sort_by_group(std::size_t groups, std::size_t count, GroupOf&& group_of) {
-  ByGroup out{std::vector<std::size_t>(groups + 1, 0), std::vector<Index>(count)};
-  for (std::size_t i = 0; i < count; ++i) ++out.first[group_of(i) + 1];
-  for (std::size_t g = 0; g < groups; ++g) out.first[g + 1] += out.first[g];
-  std::vector<std::size_t> at(out.first.begin(), out.first.end() - 1);
-  for (std::size_t i = 0; i < count; ++i) out.sorted[at[group_of(i)]++] = static_cast<Index>(i);
-  return out;
-}
-
 // Calls fill(element, faces) for the elements of a group and run(faces) for its strips.
 template <class Fill, class Run>
-StripMap strip_groups(const ByGroup& elements, GroupFaces& faces, Fill&& fill, Run&& run) {
-  const std::size_t groups = elements.first.size() - 1;
+StripMap strip_groups(const Grouped<Index>& elements, GroupFaces& faces, Fill&& fill, Run&& run) {
+  const std::size_t groups = elements.keys();
   StripMap out;
   out.group_entries.assign(groups, 0);
   for (std::size_t g = 0; g < groups; ++g) {
     faces.clear();
-    for (std::size_t i = elements.first[g]; i < elements.first[g + 1]; ++i)
-      fill(elements.sorted[i], faces);
+    for (const Index i : elements[g]) fill(i, faces);
     const Strips strips = run(faces);
     if (strips.empty()) continue;
     if (!out.entries.empty()) {  // behind the last group that has strips
@@ -124,9 +109,9 @@ StripMap strip_mesh(const Mesh& mesh, const Triangulation& triangles,
                     const NamedStripifier& stripifier, const StripOptions& options,
                     std::span<const std::uint8_t> step_cost) {
   GroupFaces faces(mesh, stripifier.uses_positions);
-  const ByGroup by_group =
-      sort_by_group(mesh.groups.size(), triangles.face.size(),
-                    [&](std::size_t t) { return mesh.group_of(triangles.face[t]); });
+  const Grouped<Index> by_group = group_by(mesh.groups.size(), triangles.face.size(), [&](Index t) {
+    return mesh.group_of(triangles.face[t]);
+  });
   return strip_groups(
       by_group, faces,
       [&](Index t, GroupFaces& out) {
@@ -162,8 +147,8 @@ StripMap strip_faces(const Mesh& mesh, const NamedStripifier& stripifier,
     return strip_mesh(mesh, triangulate(mesh), stripifier, options);
   const StrippableFaces all = strippable_faces(mesh);
   GroupFaces faces(mesh, true);
-  const ByGroup by_group = sort_by_group(mesh.groups.size(), all.group.size(),
-                                         [&](std::size_t f) { return all.group[f]; });
+  const Grouped<Index> by_group =
+      group_by(mesh.groups.size(), all.group.size(), [&](Index f) { return all.group[f]; });
   return strip_groups(
       by_group, faces,
       [&](Index f, GroupFaces& out) {

@@ -5,9 +5,9 @@
 #include <cassert>
 #include <cstdint>
 #include <cstring>
-#include <numeric>
 #include <span>
 
+#include "core/group_by.h"
 #include "core/parallel.h"
 
 namespace pstrips::inline core {
@@ -36,23 +36,12 @@ std::vector<HashedElement> hash_elements(ByteView table, std::size_t size, unsig
   return out;
 }
 
-/// Elements by the upper bits of their hashes, some eight a bucket.
-struct Buckets {
-  std::vector<Index> first;  ///< into `elements`, one a bucket and one past the end
-  std::vector<HashedElement> elements;
-};
-
-Buckets sort_into_buckets(const std::vector<HashedElement>& in) {
+/// By the upper bits of their hashes, some eight a bucket.
+Grouped<HashedElement> sort_into_buckets(const std::vector<HashedElement>& in) {
   const int bits = std::max(1, static_cast<int>(std::bit_width(in.size())) - 3);
-  const int shift = 64 - bits;
-  Buckets out;
-  out.first.assign((std::size_t{1} << bits) + 1, 0);
-  for (const HashedElement& e : in) ++out.first[(e.hash >> shift) + 1];
-  std::inclusive_scan(out.first.begin(), out.first.end(), out.first.begin());
-  std::vector<Index> next(out.first.begin(), out.first.end() - 1);
-  out.elements.resize(in.size());
-  for (const HashedElement& e : in) out.elements[next[e.hash >> shift]++] = e;
-  return out;
+  return group_each<HashedElement>(std::size_t{1} << bits, [&](auto&& visit) {
+    for (const HashedElement& e : in) visit(e.hash >> (64 - bits), [&] { return e; });
+  });
 }
 
 }  // namespace
@@ -68,13 +57,12 @@ std::vector<Index> first_equals(ByteView table, std::size_t size, unsigned threa
     const int order = compare(a, b);
     return order != 0 ? order < 0 : a.i < b.i;
   };
-  Buckets buckets = sort_into_buckets(hash_elements(table, size, threads));
+  Grouped<HashedElement> buckets = sort_into_buckets(hash_elements(table, size, threads));
   std::vector<Index> first(table.size() / size);
   constexpr std::size_t kGrain = 2048;
-  parallel_for(threads, buckets.first.size() - 1, kGrain, [&](std::size_t begin, std::size_t end) {
+  parallel_for(threads, buckets.keys(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const auto bucket = std::span(buckets.elements)
-                              .subspan(buckets.first[b], buckets.first[b + 1] - buckets.first[b]);
+      const std::span<HashedElement> bucket = buckets[b];
       std::ranges::sort(bucket, is_before);
       for (std::size_t k = 0; k < bucket.size(); ++k) {
         const bool same =

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/group_by.h"
 #include "core/parallel.h"
 
 namespace pstrips::inline codecs {
@@ -79,9 +80,7 @@ class Surveyor {
     return mesh_.groups[mesh_.group_of(face)].kind == FaceKind::polygons &&
            mesh_.face(face).size() >= 3;
   }
-  std::span<const Index> polygons_at(Index vertex) const {
-    return std::span(listed_).subspan(list_end_[vertex], list_end_[vertex + 1] - list_end_[vertex]);
-  }
+  std::span<const Index> polygons_at(Index vertex) const { return corners_by_vertex_[vertex]; }
 
   bool names_a_vertex_twice(Index face) {
     const Index first = first_corner(face), n = static_cast<Index>(mesh_.face(face).size());
@@ -124,12 +123,9 @@ class Surveyor {
         std::fill_n(corner_face_.begin() + first_corner(f), mesh_.face(f).size(), f);
     }
     is_lowest_.resize(mesh_.corners.size());
-    list_end_.assign(std::size_t{mesh_.vertex_count()} + 2, 0);
-    for_each_listed([&](Index corner) { ++list_end_[vertex_at(corner) + 2]; });
-    std::partial_sum(list_end_.begin(), list_end_.end(), list_end_.begin());
-    listed_.resize(list_end_.back());
-    // While they fill, list_end_[v + 1] is where the next of v goes; afterwards it is v's end.
-    for_each_listed([&](Index corner) { listed_[list_end_[vertex_at(corner) + 1]++] = corner; });
+    corners_by_vertex_ = group_each<Index>(mesh_.vertex_count(), [&](auto&& visit) {
+      for_each_listed([&](Index corner) { visit(vertex_at(corner), [&] { return corner; }); });
+    });
   }
 
   template <class Take>
@@ -263,8 +259,7 @@ class Surveyor {
   std::vector<bool> is_degenerate_;  // faces
   std::vector<bool> is_lowest_;      // corners: of the polygon's, the first at its lowest vertex
   std::vector<Index> corner_face_;   // empty: triangles
-  std::vector<Index> list_end_;
-  std::vector<Index> listed_;
+  Grouped<Index> corners_by_vertex_;
   std::vector<Index> sorted_;
   Survey out_;
 };

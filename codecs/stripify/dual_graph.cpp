@@ -2,20 +2,23 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 #include <tuple>
 #include <utility>
+
+#include "core/group_by.h"
 
 namespace pstrips::inline codecs {
 namespace {
 
-// A half-edge filed under its lower wedge.
-struct Filed {
+// A half-edge in the list of its lower wedge.
+struct ListedHalfEdge {
   Index high;  // its higher wedge
   Index half_edge;
-  friend auto operator<=>(const Filed&, const Filed&) = default;
+  friend auto operator<=>(const ListedHalfEdge&, const ListedHalfEdge&) = default;
 };
 
-// What pairing asks of a mesh, half-edge by half-edge.
+// What pairing needs of a mesh, half-edge by half-edge.
 struct TriangleEdges {
   const StripInput& input;
   Index count() const { return static_cast<Index>(input.triangles.size()); }
@@ -52,12 +55,8 @@ class Pairing {
   explicit Pairing(Edges edges) : edges_(std::move(edges)), opposite_(edges_.count(), kNone) {}
 
   std::vector<Index> run() {
-    file_by_lower_wedge();
-    Index begin = 0;
-    for (const Index end : end_) {
-      pair_edges_of_wedge(begin, end);
-      begin = end;
-    }
+    Grouped<ListedHalfEdge> by_wedge = list_by_lower_wedge();
+    for (std::size_t w = 0; w < by_wedge.keys(); ++w) pair_edges_of_wedge(by_wedge[w]);
     return std::move(opposite_);
   }
 
@@ -67,35 +66,26 @@ class Pairing {
   bool ascends(Index h) const { return origin(h) < target(h); }
   Index group(Index h) const { return edges_.group(h); }
 
-  void file_by_lower_wedge() {
-    const Index n = edges_.count();
-    end_.resize(edges_.wedge_count());
-    for (Index h = 0; h < n; ++h) {
-      assert(origin(h) < edges_.wedge_count() && origin(h) != target(h));
-      ++end_[std::min(origin(h), target(h))];
-    }
-    Index sum = 0;
-    for (Index& count : end_) {  // counts become starts; filing moves them to the ends
-      const Index start = sum;
-      sum += count;
-      count = start;
-    }
-    filed_.resize(n);
-    for (Index h = 0; h < n; ++h)
-      filed_[end_[std::min(origin(h), target(h))]++] = {std::max(origin(h), target(h)), h};
+  Grouped<ListedHalfEdge> list_by_lower_wedge() const {
+    return group_each<ListedHalfEdge>(edges_.wedge_count(), [&](auto&& visit) {
+      for (Index h = 0; h < edges_.count(); ++h) {
+        const Index from = origin(h), to = target(h);
+        assert(from < edges_.wedge_count() && from != to);
+        visit(std::min(from, to), [&] { return ListedHalfEdge{std::max(from, to), h}; });
+      }
+    });
   }
 
-  void pair_edges_of_wedge(Index begin, Index end) {
-    const auto at = [&](Index i) { return filed_.begin() + i; };
-    std::sort(at(begin), at(end));
-    while (begin < end) {
-      Index stop = begin + 1;
-      while (stop < end && filed_[stop].high == filed_[begin].high) ++stop;
-      if (stop - begin == 2)
-        pair_two(filed_[begin].half_edge, filed_[begin + 1].half_edge);
-      else if (stop - begin > 2)
-        pair_many(begin, stop);
-      begin = stop;
+  void pair_edges_of_wedge(std::span<ListedHalfEdge> edges) {
+    std::ranges::sort(edges);
+    while (!edges.empty()) {
+      std::size_t n = 1;
+      while (n < edges.size() && edges[n].high == edges[0].high) ++n;
+      if (n == 2)
+        pair_two(edges[0].half_edge, edges[1].half_edge);
+      else if (n > 2)
+        pair_many(edges.first(n));
+      edges = edges.subspan(n);
     }
   }
 
@@ -105,28 +95,25 @@ class Pairing {
     opposite_[b] = a;
   }
 
-  void pair_many(Index begin, Index end) {
-    const auto key = [&](const Filed& f) {
-      return std::tuple(group(f.half_edge), ascends(f.half_edge), f.half_edge);
+  void pair_many(std::span<ListedHalfEdge> edges) {
+    const auto key = [&](const ListedHalfEdge& e) {
+      return std::tuple(group(e.half_edge), ascends(e.half_edge), e.half_edge);
     };
-    std::sort(filed_.begin() + begin, filed_.begin() + end,
-              [&](const Filed& a, const Filed& b) { return key(a) < key(b); });
-    while (begin < end) {
-      const Index g = group(filed_[begin].half_edge);
-      Index up = begin;
-      while (up < end && group(filed_[up].half_edge) == g && !ascends(filed_[up].half_edge)) ++up;
-      Index stop = up;
-      while (stop < end && group(filed_[stop].half_edge) == g) ++stop;
-      for (Index down = begin, rise = up; down < up && rise < stop; ++down, ++rise)
-        pair_two(filed_[down].half_edge, filed_[rise].half_edge);
-      begin = stop;
+    std::ranges::sort(edges, {}, key);
+    for (std::size_t begin = 0, stop; begin < edges.size(); begin = stop) {
+      const Index g = group(edges[begin].half_edge);
+      std::size_t up = begin;
+      while (up < edges.size() && group(edges[up].half_edge) == g && !ascends(edges[up].half_edge))
+        ++up;
+      stop = up;
+      while (stop < edges.size() && group(edges[stop].half_edge) == g) ++stop;
+      for (std::size_t down = begin, rise = up; down < up && rise < stop; ++down, ++rise)
+        pair_two(edges[down].half_edge, edges[rise].half_edge);
     }
   }
 
   Edges edges_;
   std::vector<Index> opposite_;
-  std::vector<Index> end_;  // per wedge: one past its last in filed_
-  std::vector<Filed> filed_;
 };
 
 }  // namespace

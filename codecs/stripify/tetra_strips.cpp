@@ -4,6 +4,9 @@
 #include <array>
 #include <cassert>
 #include <compare>
+#include <span>
+
+#include "core/group_by.h"
 
 namespace pstrips::inline codecs {
 namespace {
@@ -11,13 +14,13 @@ namespace {
 // The corners of the face across from each corner, counter-clockwise from outside.
 constexpr std::array<std::array<Index, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// A face under its lowest vertex.
-struct Filed {
+/// A face in the list of its lowest vertex.
+struct ListedFace {
   Index middle, high;  // its other vertices
   bool is_odd;         // counter-clockwise it is (lowest, high, middle)
   Index face;
-  friend auto operator<=>(const Filed&, const Filed&) = default;
-  bool same_vertices(const Filed& other) const {
+  friend auto operator<=>(const ListedFace&, const ListedFace&) = default;
+  bool same_vertices(const ListedFace& other) const {
     return middle == other.middle && high == other.high;
   }
 };
@@ -26,16 +29,12 @@ class FacePairing {
  public:
   FacePairing(std::span<const Index> tetrahedra, Index vertex_count)
       : tetrahedra_(tetrahedra),
-        end_(vertex_count),
+        vertex_count_(vertex_count),
         graph_{std::vector<Index>(tetrahedra.size(), kNone)} {}
 
   TetraGraph run() {
-    file_by_lowest_vertex();
-    std::size_t begin = 0;
-    for (const Index end : end_) {
-      pair_faces_of_vertex(begin, end);
-      begin = end;
-    }
+    Grouped<ListedFace> by_vertex = list_by_lowest_vertex();
+    for (std::size_t v = 0; v < by_vertex.keys(); ++v) pair_faces_of_vertex(by_vertex[v]);
     return std::move(graph_);
   }
 
@@ -60,39 +59,35 @@ class FacePairing {
         for (Index f = 4 * t; f < 4 * t + 4; ++f) visit(f, face(f));
   }
 
-  void file_by_lowest_vertex() {
-    for_each_face([&](Index, const auto& v) { ++end_[v[0]]; });
-    Index sum = 0;
-    for (Index& count : end_) {  // counts become starts; filing moves them to the ends
-      const Index start = sum;
-      sum += count;
-      count = start;
-    }
-    filed_.resize(sum);
-    for_each_face([&](Index f, const auto& v) {
-      filed_[end_[v[0]]++] = {std::min(v[1], v[2]), std::max(v[1], v[2]), v[1] > v[2], f};
+  Grouped<ListedFace> list_by_lowest_vertex() const {
+    return group_each<ListedFace>(vertex_count_, [&](auto&& visit) {
+      for_each_face([&](Index f, const auto& v) {
+        visit(v[0], [&] {
+          return ListedFace{std::min(v[1], v[2]), std::max(v[1], v[2]), v[1] > v[2], f};
+        });
+      });
     });
   }
 
-  void pair_faces_of_vertex(std::size_t begin, std::size_t end) {
-    const auto at = [&](std::size_t i) { return filed_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::sort(at(begin), at(end));
-    while (begin < end) {
+  void pair_faces_of_vertex(std::span<ListedFace> faces) {
+    std::ranges::sort(faces);
+    for (std::size_t begin = 0, stop; begin < faces.size(); begin = stop) {
+      const auto is_same = [&](std::size_t i) {
+        return i < faces.size() && faces[i].same_vertices(faces[begin]);
+      };
       std::size_t odd = begin;
-      while (odd < end && filed_[odd].same_vertices(filed_[begin]) && !filed_[odd].is_odd) ++odd;
-      std::size_t stop = odd;
-      while (stop < end && filed_[stop].same_vertices(filed_[begin])) ++stop;
+      while (is_same(odd) && !faces[odd].is_odd) ++odd;
+      stop = odd;
+      while (is_same(stop)) ++stop;
       for (std::size_t i = begin, j = odd; i < odd && j < stop; ++i, ++j) {
-        graph_.opposite[filed_[i].face] = filed_[j].face;
-        graph_.opposite[filed_[j].face] = filed_[i].face;
+        graph_.opposite[faces[i].face] = faces[j].face;
+        graph_.opposite[faces[j].face] = faces[i].face;
       }
-      begin = stop;
     }
   }
 
   std::span<const Index> tetrahedra_;
-  std::vector<Index> end_;  // per vertex: one past its last in filed_
-  std::vector<Filed> filed_;
+  Index vertex_count_;
   TetraGraph graph_;
 };
 

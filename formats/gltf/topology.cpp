@@ -3,27 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "core/group_by.h"
+
 namespace pstrips::inline formats::gltf {
 namespace {
 
 using Triangle = std::array<Index, 3>;
-
-/// The faces of each group, in face order.
-struct FacesByGroup {
-  std::vector<Index> first;  ///< into `faces`, one a group and one past the end
-  std::vector<Index> faces;
-};
-
-FacesByGroup sort_faces(const Mesh& mesh) {
-  FacesByGroup out;
-  out.first.assign(mesh.groups.size() + 1, 0);
-  for (Index f = 0; f < mesh.face_count(); ++f) ++out.first[mesh.group_of(f) + 1];
-  for (std::size_t g = 1; g < out.first.size(); ++g) out.first[g] += out.first[g - 1];
-  out.faces.resize(mesh.face_count());
-  std::vector<Index> next(out.first.begin(), out.first.end() - 1);
-  for (Index f = 0; f < mesh.face_count(); ++f) out.faces[next[mesh.group_of(f)]++] = f;
-  return out;
-}
 
 /// Joins triangles that follow each other as a strip's do. [gltf.h, GltfTopology]
 class StripBuilder {
@@ -180,14 +165,12 @@ class GroupWriter {
 
 std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology topology,
                                                 std::vector<std::string>& dropped) {
-  const FacesByGroup sorted = sort_faces(mesh);
+  const Grouped<Index> faces_by_group =
+      group_by(mesh.groups.size(), mesh.face_count(), [&](Index f) { return mesh.group_of(f); });
   GroupWriter writer(mesh, topology);
   std::vector<std::vector<IndexList>> out;
-  for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
-    const auto faces =
-        std::span(sorted.faces).subspan(sorted.first[g], sorted.first[g + 1] - sorted.first[g]);
-    out.push_back(writer.write(faces, mesh.groups[g].kind));
-  }
+  for (std::size_t g = 0; g < mesh.groups.size(); ++g)
+    out.push_back(writer.write(faces_by_group[g], mesh.groups[g].kind));
   writer.report(dropped);
   return out;
 }

@@ -4,25 +4,10 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/group_by.h"
+
 namespace pstrips::inline formats::ply {
 namespace {
-
-/// Corners listed by vertex, ascending within each.
-struct CornersByVertex {
-  std::vector<Index> first, corners;
-};
-
-CornersByVertex list_by_vertex(std::span<const Index> corner_vertices, Index vertex_count) {
-  CornersByVertex out;
-  out.first.assign(std::size_t{vertex_count} + 1, 0);
-  out.corners.resize(corner_vertices.size());
-  for (const Index v : corner_vertices) ++out.first[v + 1];
-  for (std::size_t v = 0; v < vertex_count; ++v) out.first[v + 1] += out.first[v];
-  std::vector<Index> next(out.first.begin(), out.first.end() - 1);
-  for (std::size_t c = 0; c < corner_vertices.size(); ++c)
-    out.corners[next[corner_vertices[c]]++] = static_cast<Index>(c);
-  return out;
-}
 
 class WedgeBuilder {
  public:
@@ -101,12 +86,10 @@ class WedgeBuilder {
 CornerWedges wedges_of_corners(std::span<const Index> corner_vertices, Index vertex_count,
                                ByteView pairs, std::size_t pair_bytes) {
   assert(pairs.size() == corner_vertices.size() * pair_bytes);
-  const CornersByVertex by_vertex = list_by_vertex(corner_vertices, vertex_count);
+  const Grouped<Index> by_vertex =
+      group_by(vertex_count, corner_vertices.size(), [&](Index c) { return corner_vertices[c]; });
   WedgeBuilder builder(corner_vertices.size(), pairs, pair_bytes);
-  for (Index v = 0; v < vertex_count; ++v)
-    builder.add_vertex(
-        v, std::span(by_vertex.corners)
-               .subspan(by_vertex.first[v], by_vertex.first[v + 1] - by_vertex.first[v]));
+  for (Index v = 0; v < vertex_count; ++v) builder.add_vertex(v, by_vertex[v]);
   return std::move(builder).take();
 }
 
