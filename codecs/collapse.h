@@ -24,7 +24,7 @@ struct Collapse {
   friend bool operator==(const Collapse&, const Collapse&) = default;
 };
 
-/// What speaks against a collapse.
+/// Why a collapse is put off.
 enum class CollapseConstraint : std::uint8_t {
   none,
   border,   ///< a vertex leaves the border, or a place where several borders meet
@@ -33,7 +33,7 @@ enum class CollapseConstraint : std::uint8_t {
   texture,  ///< the same in the texture, where faces may not turn over
 };
 
-/// How many collapses each constraint spoke against.
+/// How many collapses each constraint refused.
 struct ConstraintCounts {
   std::uint64_t border = 0, link = 0, flip = 0, texture = 0;
   friend bool operator==(const ConstraintCounts&, const ConstraintCounts&) = default;

@@ -13,7 +13,7 @@
 
 namespace pstrips::inline codecs {
 
-/// What the neighbours of a vertex ask for, four on a cache line.
+/// What is needed of a neighbour, four on a cache line.
 struct alignas(16) VertexPoint {
   Vec3f position;   ///< scaled to the unit box
   float error = 0;  ///< of the faces that it stands for; infinite: locked
@@ -33,7 +33,7 @@ struct alignas(64) VertexRecord {
 static_assert(sizeof(VertexRecord) == 64);
 
 /// Triangles over flat arrays with the corners of each vertex listed in one pool.
-/// A corner is 4 · triangle + its place 0, 1, 2; place 3 tells whether the triangle is dead.
+/// A corner is 4 · triangle + its place 0, 1, 2; place 3 says whether the triangle is dead.
 class Complex {
  public:
   /// Locks vertices that are not finite. Cost O(size).
@@ -62,7 +62,7 @@ class Complex {
   std::array<double, 3> model_position(Index vertex) const;
   bool is_locked(Index vertex) const { return std::isinf(points[vertex].error); }
 
-  /// Fetch into the cache what is going to be asked for soon: the record, then its ring, then the
+  /// Prefetch what is going to be needed soon: the record, then its ring, then the
   /// triangles, then their vertices. Collapses jump all over the mesh; on 270,000 triangles this
   /// saves a third of the time.
   [[gnu::always_inline]] void prefetch_record(Index v) const { __builtin_prefetch(&vertices[v]); }
@@ -80,7 +80,7 @@ class Complex {
       __builtin_prefetch(&vertices[neighbour]);
     }
   }
-  /// The live corners of a vertex; forgets its dead ones.
+  /// The live corners of a vertex; drops its dead ones.
   std::span<const Index> ring(Index vertex);
   /// The same with dead ones among them, without looking at the triangles.
   std::span<const Index> ring_with_dead(Index vertex) const {

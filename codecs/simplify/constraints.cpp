@@ -75,7 +75,7 @@ bool CollapseConstraints::breaks_regular_link(const Star& star, Index p) {
 }
 
 // Link condition: what p and q both neighbour is on a triangle with both, and no two faces become
-// one. Not told apart in time counts as broken.
+// one. What is not known in time counts as broken.
 bool CollapseConstraints::breaks_link(const Star& star, Index p) {
   const auto is_small = [&](Index v) {
     const VertexRecord& record = complex_.vertices[v];

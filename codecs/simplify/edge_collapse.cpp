@@ -24,6 +24,53 @@ float rounded_down(float error) {
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(error) & 0xff80'0000u);
 }
 
+// One quadric takes in another whose owner goes to `place`, and moves by `shift` itself. The
+// constant terms grow by what the moves cost; what other values of attributes cost is in the linear
+// terms already but for `wedge_constant`.
+void join(Quadric& from, float from_error, Quadric& to, float& error, Vec3f shift, Vec3f place,
+          float wedge_constant) {
+  error = std::max(0.f, error + to.at(shift) + from_error + from.at(place) + wedge_constant);
+  to.move(shift);
+  from.move(place);
+  to.add(from, {});
+}
+
+// What attributes demand of each vertex, accumulated; nothing without attributes.
+struct AttributeQuadrics {
+  std::vector<Quadric> quadrics;
+  std::vector<float> errors;  // their constant terms
+
+  bool empty() const { return quadrics.empty(); }
+  void resize(std::size_t vertices) {
+    quadrics.resize(vertices);
+    errors.resize(vertices);
+  }
+  // Adds those of an edge from q to p.
+  void add_to(EdgeSum& sum, Index q, Index p, Vec3f offset) const {
+    sum.quadric.add(quadrics[q], {});
+    sum.quadric.add(quadrics[p], offset);
+    sum.constant += errors[q] + errors[p] + quadrics[p].at(offset * -1);
+  }
+};
+
+// What all faces ever replaced say of a place for the edge from q to p, given relative to q.
+float history_error(const Complex& complex, Index q, Index p, Vec3f place) {
+  const Vec3f kept_place = place - complex.offset(q, p);
+  return complex.points[q].error + complex.vertices[q].quadric.at(place) + complex.points[p].error +
+         complex.vertices[p].quadric.at(kept_place);
+}
+
+// Calls visit(vertex, scratch star) for all that may collapse, on several threads.
+template <class Visit>
+void for_vertices(const Complex& complex, unsigned threads, Visit&& visit) {
+  constexpr std::size_t kGrain = 4096;
+  parallel_for(threads, complex.vertex_count(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Star star;
+    for (Index v = static_cast<Index>(begin); v < end; ++v)
+      if (!complex.is_locked(v)) visit(v, star);
+  });
+}
+
 class EdgePricer {
  public:
   explicit EdgePricer(CollapseState& state);
@@ -58,19 +105,15 @@ class EdgePricer {
   void start_all(std::vector<std::uint8_t>& is_plain);
   bool start_plain(Index v, Star& star);
   void start(Index v, Star& star);
-  template <class Visit>
-  void for_vertices(Visit&& visit);
   void sum_planes(Index v);
 
-  void evaluate(const Star& star);
-  void evaluate_all(const Star& star);
+  void evaluate_owned(const Star& star);
   template <class IsWanted>
   void evaluate(const Star& star, IsWanted&& is_wanted);
   void price_plain(const Star& star, const Index (&at)[4]);
   void price_any(const Star& star, StarEdge& edge, float live_weight);
   EdgeSum sum_of(const Star& star, const StarEdge& edge) const;
   void apply_limit(const Star& star, StarEdge& edge, float wedge_error) const;
-  float history_error(Index q, Index p, Vec3f place) const;
   float least_owned(const Star& star) const;
 
   void join_quadrics(Index q, Index p, Vec3f place, float wedge_constant);
@@ -83,9 +126,8 @@ class EdgePricer {
   CollapseState& s_;
   Complex& complex_;
   const bool optimal_;
-  std::optional<FacePlanes> planes_;         // memoryless: of all vertices whose ring is not large
-  std::vector<Quadric> attribute_quadrics_;  // memoryless: what attributes demand, accumulated
-  std::vector<float> attribute_errors_;      // and their constant terms
+  std::optional<FacePlanes> planes_;  // memoryless: of all vertices whose ring is not large
+  AttributeQuadrics attributes_;      // memoryless
   std::vector<std::uint8_t> large_, moved_;
   std::vector<std::uint8_t> border_rank_;  // 1 for what came to a border, 2 for where several meet
   Star star_, kept_star_, scratch_;
@@ -99,23 +141,9 @@ EdgePricer::EdgePricer(CollapseState& state)
       large_(complex_.vertex_count()),
       border_rank_(complex_.vertex_count()) {
   if (s_.memoryless) planes_.emplace(complex_, s_.builder);
-  if (s_.memoryless && s_.input.attribute_count > 0) {
-    attribute_quadrics_.resize(complex_.vertex_count());
-    attribute_errors_.resize(complex_.vertex_count());
-  }
+  if (s_.memoryless && s_.input.attribute_count > 0) attributes_.resize(complex_.vertex_count());
   for (Index v = 0; v < large_.size(); ++v) large_[v] = complex_.vertices[v].ring_size > kLargeRing;
   if (optimal_) moved_.resize(complex_.vertex_count());
-}
-
-// Calls visit(vertex, scratch star) for all that may collapse, on several threads.
-template <class Visit>
-void EdgePricer::for_vertices(Visit&& visit) {
-  constexpr std::size_t kGrain = 4096;
-  parallel_for(s_.options.threads, large_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    Star star;
-    for (Index v = static_cast<Index>(begin); v < end; ++v)
-      if (!complex_.is_locked(v)) visit(v, star);
-  });
 }
 
 // Vertices without anything special are many, and do not need one another's scratch memory.
@@ -125,10 +153,10 @@ std::vector<float> EdgePricer::first_keys() {
   std::vector<float> keys(complex_.vertex_count(), kInfiniteCost);
   const auto take_key = [&](Index v, Star& star) {
     gather(v, star);
-    evaluate(star);
+    evaluate_owned(star);
     keys[v] = complex_.vertices[v].key = least_owned(star);
   };
-  for_vertices([&](Index v, Star& star) {
+  for_vertices(complex_, s_.options.threads, [&](Index v, Star& star) {
     if (is_plain[v]) take_key(v, star);
   });
   for (Index v = 0; v < keys.size(); ++v)
@@ -138,13 +166,14 @@ std::vector<float> EdgePricer::first_keys() {
 
 void EdgePricer::start_all(std::vector<std::uint8_t>& is_plain) {
   if (s_.wedges)
-    s_.builder.add_attributes(attribute_quadrics_.empty() ? nullptr : attribute_quadrics_.data());
+    s_.builder.add_attributes(attributes_.empty() ? nullptr : attributes_.quadrics.data());
   if (planes_)
     parallel_for(s_.options.threads, planes_->face_count(), std::size_t{1} << 16,
                  [&](std::size_t begin, std::size_t end) {
                    for (Index t = static_cast<Index>(begin); t < end; ++t) planes_->update(t);
                  });
-  for_vertices([&](Index v, Star& star) { is_plain[v] = start_plain(v, star); });
+  for_vertices(complex_, s_.options.threads,
+               [&](Index v, Star& star) { is_plain[v] = start_plain(v, star); });
   for (Index v = 0; v < is_plain.size(); ++v)
     if (!is_plain[v] && !complex_.is_locked(v)) start(v, star_);
 }
@@ -200,21 +229,17 @@ void EdgePricer::sum_planes(Index v) {
 
 Star& EdgePricer::price(Index q) {
   gather(q, star_);
-  evaluate(star_);
+  evaluate_owned(star_);
   is_measured_ = false;
   return star_;
 }
 
-// Fills costs and places of the star's edges, constraints aside; those that it does not own cost
-// infinity.
-void EdgePricer::evaluate(const Star& star) {
+void EdgePricer::evaluate_owned(const Star& star) {
   evaluate(star, [&](Index x) { return owns(star.vertex, x); });
 }
 
-void EdgePricer::evaluate_all(const Star& star) {
-  evaluate(star, [](Index) { return true; });
-}
-
+// Fills costs and places of the star's edges, constraints aside; those to other vertices than
+// is_wanted(vertex) cost infinity.
 template <class IsWanted>
 void EdgePricer::evaluate(const Star& star, IsWanted&& is_wanted) {
   if (planes_)
@@ -304,11 +329,7 @@ EdgeSum EdgePricer::sum_of(const Star& star, const StarEdge& edge) const {
     return sum;
   }
   EdgeSum sum = planes_->edge_sum(star, edge);
-  if (attribute_quadrics_.empty()) return sum;
-  sum.quadric.add(attribute_quadrics_[q], {});
-  sum.quadric.add(attribute_quadrics_[p], offset);
-  sum.constant +=
-      attribute_errors_[q] + attribute_errors_[p] + attribute_quadrics_[p].at(offset * -1);
+  if (!attributes_.empty()) attributes_.add_to(sum, q, p, offset);
   return sum;
 }
 
@@ -316,15 +337,8 @@ void EdgePricer::apply_limit(const Star& star, StarEdge& edge, float wedge_error
   if (!s_.is_limited()) return;
   const Index q = star.vertex, p = edge.vertex;
   const float all = complex_.vertices[q].quadric.weight + complex_.vertices[p].quadric.weight;
-  if (history_error(q, p, edge.place) + wedge_error > s_.max_squared_error * all)
+  if (history_error(complex_, q, p, edge.place) + wedge_error > s_.max_squared_error * all)
     edge.cost = kInfiniteCost;
-}
-
-// What all faces ever replaced say of a place, given relative to q.
-float EdgePricer::history_error(Index q, Index p, Vec3f place) const {
-  const Vec3f kept_place = place - complex_.offset(q, p);
-  return complex_.points[q].error + complex_.vertices[q].quadric.at(place) +
-         complex_.points[p].error + complex_.vertices[p].quadric.at(kept_place);
 }
 
 float EdgePricer::least_owned(const Star& star) const {
@@ -362,8 +376,10 @@ void EdgePricer::collapse(const StarEdge& edge) {
   const Vec3f linear = from.b;
   if (s_.wedges) s_.wedges->move(p, shift);
   s_.move_wedges(star_, p, place, from);
-  if (!attribute_quadrics_.empty())
-    attribute_quadrics_[q].b = attribute_quadrics_[q].b + (from.b - linear);
+  if (!attributes_.empty()) {
+    Quadric& demanded = attributes_.quadrics[q];
+    demanded.b = demanded.b + (from.b - linear);
+  }
   join_quadrics(q, p, place, wedge_cost.constant);
   s_.join_rings(star_, edge);
   const bool becomes_large = !is_large(p) && complex_.vertices[p].ring_size > kLargeRing;
@@ -379,21 +395,13 @@ void EdgePricer::collapse(const StarEdge& edge) {
   price_around(p, has_moved, becomes_large);
 }
 
-// The constant terms grow by what the moves cost; what other values of attributes cost is in the
-// linear terms already but for `wedge_constant`.
 void EdgePricer::join_quadrics(Index q, Index p, Vec3f place, float wedge_constant) {
   const Vec3f shift = place - complex_.offset(q, p);
-  const auto join = [&](Quadric& from, float from_error, Quadric& to, float& error) {
-    error = std::max(0.f, error + to.at(shift) + from_error + from.at(place) + wedge_constant);
-    to.move(shift);
-    from.move(place);
-    to.add(from, {});
-  };
   join(complex_.vertices[q].quadric, complex_.points[q].error, complex_.vertices[p].quadric,
-       complex_.points[p].error);
-  if (!attribute_quadrics_.empty())
-    join(attribute_quadrics_[q], attribute_errors_[q], attribute_quadrics_[p],
-         attribute_errors_[p]);
+       complex_.points[p].error, shift, place, wedge_constant);
+  if (attributes_.empty()) return;
+  join(attributes_.quadrics[q], attributes_.errors[q], attributes_.quadrics[p],
+       attributes_.errors[p], shift, place, wedge_constant);
 }
 
 // The very coordinates of the input as long as the vertex stands there.
@@ -423,7 +431,7 @@ void EdgePricer::price_around(Index p, bool has_moved, bool becomes_large) {
     for (const StarEdge& edge : kept_star_.edges) complex_.prefetch_ring(edge.vertex);
     for (const StarEdge& edge : kept_star_.edges) sum_planes(edge.vertex);
   }
-  evaluate_all(kept_star_);
+  evaluate(kept_star_, [](Index) { return true; });
   set_key(p, least_owned(kept_star_));
   for (const StarEdge& edge : kept_star_.edges) {
     const Index x = edge.vertex;

@@ -51,7 +51,7 @@ class FacePlanes {
   void update(Index triangle);
   void remove(Index triangle) { faces_[triangle] = {}; }
 
-  /// What is around the star's vertex, open edges and seams among it if asked for.
+  /// What is around the star's vertex, open edges and seams among it with `with_edges`.
   void sum(Star& star, bool with_edges);
   /// Faces alone, without a star.
   void sum_faces(Index vertex);

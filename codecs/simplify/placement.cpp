@@ -49,7 +49,7 @@ struct Factors {
   }
 };
 
-// Not finite where the quadric is nothing. `near` tells whether the place is not too far off.
+// Not finite where the quadric is nothing. `near` says whether the place is not too far off.
 template <class T, class Bool>
 Vec3<T> least(const Matrix<T>& a, const Vec3<T>& b, const Vec3<T>& area, T volume,
               const Vec3<T>& offset, Bool& near) {

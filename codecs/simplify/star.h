@@ -59,7 +59,7 @@ struct Star {
   std::vector<EdgeGroup> edge_group_buffer;
   std::vector<CornerGroup> corner_group_buffer;
 
-  /// Whether the vertex is regular, after gather_regular(). Not told apart beyond kMaxForPairs
+  /// Whether the vertex is regular, after gather_regular(). False beyond kMaxForPairs
   /// corners.
   bool is_regular() const;
   /// Fills normals and areas; returns the quadric of the triangles. [Garland97 §3.4]
