@@ -64,9 +64,9 @@ void report_simplification(const Streams& io, const std::vector<SimplifyReport>&
 }
 
 // What is unusual about the model.
-Survey survey_of(const Model& model) {
-  Survey all;
-  for (const Mesh& mesh : model.meshes) all += survey(mesh);
+MeshStatistics statistics_of(const Model& model) {
+  MeshStatistics all;
+  for (const Mesh& mesh : model.meshes) all += mesh_statistics(mesh);
   return all;
 }
 
@@ -109,16 +109,16 @@ ExitCode run(const Options& options, const Streams& io) {
                                                           : split_list(options.attributes));
     if (is_progressive(*target)) {
       const bool tells = !io.quiet && options.output != "-";
-      Survey met;
+      MeshStatistics met;
       Result<ProgressiveStrips> strips;
       parallel_invoke(
           encode_options->threads,
           [&] {
-            if (tells) met = survey_of(model);
+            if (tells) met = statistics_of(model);
           },
           [&] { strips = encode(model, *encode_options, bar.callback(), &simplified); });
       bar.clear();
-      if (tells) print_survey(io.err, met, true);
+      if (tells) print_mesh_statistics(io.err, met, true);
       if (!strips) return complain(io, strips.error(), options.input);
       options.encode.stripping.note_time_limit(io);
       saved = save(*strips, options.output, *target);

@@ -54,7 +54,7 @@ struct Report {
   Inspection figures;
   std::array<std::uint64_t, kPartGroups.size()> part_bytes{};
   bool has_parts = false;
-  std::optional<Survey> survey;  // of a plain model
+  std::optional<MeshStatistics> statistics;  // of a plain model
   std::size_t meshes = 0, materials = 0, images = 0, nodes = 0;
   std::vector<std::string> attributes;
   bool complete = true;
@@ -100,13 +100,13 @@ void add_strips(Report& report, const ProgressiveStrips& strips,
 
 void add_model(Report& report, const Model& model) {
   report.meshes = model.meshes.size();
-  report.survey.emplace();
+  report.statistics.emplace();
   add_scene(report, model.scene);
   for (const Mesh& mesh : model.meshes) {
     report.figures.vertices += mesh.vertex_count();
     report.figures.wedges += mesh.wedge_count();
     report.figures.faces += mesh.face_count();
-    *report.survey += survey(mesh);
+    *report.statistics += mesh_statistics(mesh);
     report.figures.triangles += triangulate(mesh).face.size();
     add_attribute(report, mesh.position);
     for (const Attribute& a : mesh.wedge_attributes) add_attribute(report, a);
@@ -182,7 +182,7 @@ void print_totals(std::ostream& out, const Report& r) {
   add("bytes", r.bytes);
   table.add({"bits per vertex", fmt::format("{:.1f}", r.bits_per_vertex(r.bytes))});
   table.print(out);
-  if (r.survey) print_survey(out, *r.survey, false);
+  if (r.statistics) print_mesh_statistics(out, *r.statistics, false);
   for (const std::string& a : r.attributes) out << "attribute " << escaped(a) << "\n";
 }
 
@@ -220,13 +220,13 @@ void print_text(std::ostream& out, const Report& r) {
   histogram.print(out);
 }
 
-Json survey_json(const Survey& survey) {
+Json statistics_json(const MeshStatistics& statistics) {
   Json json = Json::object();
-  for (const SurveyKind& kind : survey_kinds()) {
+  for (const MeshStatisticKind& kind : mesh_statistic_kinds()) {
     std::string key(kind.name);
     std::ranges::replace_if(
         key, [](char c) { return c == ' ' || c == '-'; }, '_');
-    json[key] = survey.*kind.count;
+    json[key] = statistics.*kind.count;
   }
   return json;
 }
@@ -256,7 +256,7 @@ void print_json(std::ostream& out, const Report& r) {
   json["nodes"] = r.nodes;
   json["attributes"] = Json::array();
   for (const std::string& a : r.attributes) json["attributes"].push_back(escaped(a));
-  json["survey"] = r.survey ? survey_json(*r.survey) : Json();
+  json["survey"] = r.statistics ? statistics_json(*r.statistics) : Json();
   json["bytes"] = r.bytes;
   json["bits_per_vertex"] = r.bits_per_vertex(r.bytes);
   json["parts"] = Json::object();

@@ -142,10 +142,11 @@ void Table::print(std::ostream& out) const {
   }
 }
 
-void print_survey(std::ostream& out, const Survey& survey, bool with_treatment) {
-  for (const SurveyKind& kind : survey_kinds()) {
-    const std::uint64_t count = survey.*kind.count;
-    if (count <= (kind.count == &Survey::components ? 1u : 0u)) continue;
+void print_mesh_statistics(std::ostream& out, const MeshStatistics& statistics,
+                           bool with_treatment) {
+  for (const MeshStatisticKind& kind : mesh_statistic_kinds()) {
+    const std::uint64_t count = statistics.*kind.count;
+    if (count <= (kind.count == &MeshStatistics::components ? 1u : 0u)) continue;
     const std::string line = with_treatment ? fmt::format("{:>13}  {:<26}  {}", grouped(count),
                                                           kind.name, kind.treatment)
                                             : fmt::format("{:>13}  {}", grouped(count), kind.name);

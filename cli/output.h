@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "codecs/measure/survey.h"
+#include "codecs/measure/mesh_statistics.h"
 #include "core/progress.h"
 #include "core/result.h"
 
@@ -41,9 +41,10 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// What a survey met, a line a kind that occurs (components when there are several): count, name
-/// and, if asked for, what became of it.
-void print_survey(std::ostream& out, const Survey& survey, bool with_treatment);
+/// What a mesh has of what simple programs stumble over, a line a kind that occurs (components when
+/// there are several): count, name and, if asked for, what became of it.
+void print_mesh_statistics(std::ostream& out, const MeshStatistics& statistics,
+                           bool with_treatment);
 
 /// 1234567 as "1,234,567".
 std::string grouped(std::uint64_t value);

@@ -37,7 +37,7 @@ struct CollapsedSurface {
 ///
 /// The maps bound both directions alike: the one-sided bound is the two-sided one.
 ///
-/// Nothing is asked of the collapses but that each vertex is removed once and that one with
+/// The collapses need only satisfy that each vertex is removed once and that one with
 /// triangles does not go to one that never had any. Where a vertex that is not finite is removed,
 /// moved or collapsed onto, and where a coordinate is too large, the largest float is the bound
 /// from there on.

@@ -1,4 +1,4 @@
-#include "codecs/measure/survey.h"
+#include "codecs/measure/mesh_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,15 +12,17 @@
 namespace pstrips::inline codecs {
 namespace {
 
-constexpr SurveyKind kKinds[] = {
-    {&Survey::non_manifold_edges, "non-manifold edges", "kept; simplified like borders"},
-    {&Survey::non_manifold_vertices, "non-manifold vertices", "kept"},
-    {&Survey::duplicate_faces, "duplicate faces", "kept, each of them"},
-    {&Survey::degenerate_faces, "degenerate faces", "kept, in the full model only"},
-    {&Survey::isolated_vertices, "isolated vertices", "kept, not collapsed"},
-    {&Survey::non_finite_vertices, "non-finite vertices", "kept bit for bit, not collapsed"},
-    {&Survey::other_faces, "other faces than triangles", "kept, triangulated in the levels"},
-    {&Survey::components, "components", "simplified together"},
+constexpr MeshStatisticKind kKinds[] = {
+    {&MeshStatistics::non_manifold_edges, "non-manifold edges", "kept; simplified like borders"},
+    {&MeshStatistics::non_manifold_vertices, "non-manifold vertices", "kept"},
+    {&MeshStatistics::duplicate_faces, "duplicate faces", "kept, each of them"},
+    {&MeshStatistics::degenerate_faces, "degenerate faces", "kept, in the full model only"},
+    {&MeshStatistics::isolated_vertices, "isolated vertices", "kept, not collapsed"},
+    {&MeshStatistics::non_finite_vertices, "non-finite vertices",
+     "kept bit for bit, not collapsed"},
+    {&MeshStatistics::other_faces, "other faces than triangles",
+     "kept, triangulated in the levels"},
+    {&MeshStatistics::components, "components", "simplified together"},
 };
 
 // Disjoint sets of numbers; the least number stands for its set.
@@ -50,21 +52,21 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-class Surveyor {
+class StatisticsCounter {
  public:
-  explicit Surveyor(const Mesh& mesh) : mesh_(mesh) {}
+  explicit StatisticsCounter(const Mesh& mesh) : mesh_(mesh) {}
 
-  Survey run(unsigned threads) {
+  MeshStatistics run(unsigned threads) {
     look_at_faces();
     list_corners();
     constexpr std::size_t kGrain = 1 << 14;
-    std::vector<Survey> parts((mesh_.vertex_count() + kGrain - 1) / kGrain);
+    std::vector<MeshStatistics> parts((mesh_.vertex_count() + kGrain - 1) / kGrain);
     parallel_for(threads, mesh_.vertex_count(), kGrain, [&](std::size_t begin, std::size_t end) {
-      VertexSurveyor vertices(*this);
+      VertexCounter vertices(*this);
       for (std::size_t v = begin; v < end; ++v) vertices.look_at(static_cast<Index>(v));
       parts[begin / kGrain] = vertices.found;
     });
-    for (const Survey& part : parts) out_ += part;
+    for (const MeshStatistics& part : parts) out_ += part;
     return out_;
   }
 
@@ -146,9 +148,9 @@ class Surveyor {
   }
 
   // Looks at one vertex at a time, and what is around it.
-  class VertexSurveyor {
+  class VertexCounter {
    public:
-    explicit VertexSurveyor(const Surveyor& all) : all_(all), mesh_(all.mesh_) {}
+    explicit VertexCounter(const StatisticsCounter& all) : all_(all), mesh_(all.mesh_) {}
 
     void look_at(Index vertex) {
       const std::size_t axes = std::min<std::size_t>(mesh_.position.count, 3);
@@ -160,7 +162,7 @@ class Surveyor {
       look_for_duplicates(vertex);
     }
 
-    Survey found;
+    MeshStatistics found;
 
    private:
     // The vertices before and after this one in each polygon around it: fans are what these pairs
@@ -249,7 +251,7 @@ class Surveyor {
         if (loops[i - 1] == loops[i]) ++found.duplicate_faces;
     }
 
-    const Surveyor& all_;
+    const StatisticsCounter& all_;
     const Mesh& mesh_;
     std::vector<Index> sides_, neighbours_, parent_, degree_;
     std::vector<std::pair<std::uint64_t, Index>> sums_;  // of the vertices of a face
@@ -261,18 +263,20 @@ class Surveyor {
   std::vector<Index> corner_face_;   // empty: triangles
   Grouped<Index> corners_by_vertex_;
   std::vector<Index> sorted_;
-  Survey out_;
+  MeshStatistics out_;
 };
 
 }  // namespace
 
-Survey& Survey::operator+=(const Survey& other) {
-  for (const SurveyKind& kind : kKinds) this->*kind.count += other.*kind.count;
+MeshStatistics& MeshStatistics::operator+=(const MeshStatistics& other) {
+  for (const MeshStatisticKind& kind : kKinds) this->*kind.count += other.*kind.count;
   return *this;
 }
 
-std::span<const SurveyKind> survey_kinds() { return kKinds; }
+std::span<const MeshStatisticKind> mesh_statistic_kinds() { return kKinds; }
 
-Survey survey(const Mesh& mesh, unsigned threads) { return Surveyor(mesh).run(threads); }
+MeshStatistics mesh_statistics(const Mesh& mesh, unsigned threads) {
+  return StatisticsCounter(mesh).run(threads);
+}
 
 }  // namespace pstrips::inline codecs

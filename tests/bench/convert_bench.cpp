@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "codecs/measure/survey.h"
+#include "codecs/measure/mesh_statistics.h"
 #include "codecs/simplify/simplify.h"
 #include "codecs/triangulate/triangulate.h"
 #include "codecs/vsplit/faces.h"
@@ -98,7 +98,7 @@ void run_stages(const std::string& input, Stages& stages) {
   stages.run("read", [&] { file = load(input); });
   const Model& model = std::get<Model>(file->content);
   const Mesh& mesh = model.meshes.front();
-  stages.run("survey", [&] { survey(mesh); });
+  stages.run("statistics", [&] { mesh_statistics(mesh); });
   Triangulation triangles;
   std::vector<double> positions;
   stages.run("triangulate", [&] {

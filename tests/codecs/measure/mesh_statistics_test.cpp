@@ -1,4 +1,4 @@
-#include "codecs/measure/survey.h"
+#include "codecs/measure/mesh_statistics.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -22,11 +22,11 @@ Mesh mesh_of(Index vertices, std::vector<Index> corners, std::vector<Index> face
   return mesh;
 }
 
-TEST(Survey, CountsEachKind) {
+TEST(MeshStatistics, CountsEachKind) {
   const struct {
     const char* name;
     Mesh mesh;
-    Survey expected;
+    MeshStatistics expected;
   } kRows[] = {
       {"nothing", mesh_of(0, {}), {}},
       {"torus", test::torus(6, 5), {.components = 1}},
@@ -50,32 +50,32 @@ TEST(Survey, CountsEachKind) {
   };
   for (const auto& row : kRows) {
     SCOPED_TRACE(row.name);
-    EXPECT_EQ(survey(row.mesh), row.expected);
+    EXPECT_EQ(mesh_statistics(row.mesh), row.expected);
   }
 }
 
-TEST(Survey, LinesAndPointsAreNoPolygons) {
+TEST(MeshStatistics, LinesAndPointsAreNoPolygons) {
   Mesh mesh = mesh_of(6, {0, 1, 2, 3, 4, 5});
   mesh.groups[0].kind = FaceKind::lines;
-  EXPECT_EQ(survey(mesh), (Survey{.other_faces = 2, .components = 2}));
+  EXPECT_EQ(mesh_statistics(mesh), (MeshStatistics{.other_faces = 2, .components = 2}));
 }
 
-TEST(Survey, FindsWhatIsNotFinite) {
+TEST(MeshStatistics, FindsWhatIsNotFinite) {
   Mesh mesh = test::grid(3);
   set_component(mesh.position, 1, 2, std::nan(""));
   set_component(mesh.position, 5, 0, -std::numeric_limits<double>::infinity());
   set_component(mesh.position, 6, 0, -0.0);
-  EXPECT_EQ(survey(mesh).non_finite_vertices, 2u);
+  EXPECT_EQ(mesh_statistics(mesh).non_finite_vertices, 2u);
 }
 
-TEST(Survey, TopologyIsByVertexNotByWedge) {
-  EXPECT_EQ(survey(test::cube(true)), survey(test::cube(false)));
-  EXPECT_EQ(survey(test::cube(true)), Survey{.components = 1});
+TEST(MeshStatistics, TopologyIsByVertexNotByWedge) {
+  EXPECT_EQ(mesh_statistics(test::cube(true)), mesh_statistics(test::cube(false)));
+  EXPECT_EQ(mesh_statistics(test::cube(true)), MeshStatistics{.components = 1});
 }
 
 // The definitions, word for word.
-Survey slow_survey(const Mesh& mesh) {
-  Survey out;
+MeshStatistics slow_statistics(const Mesh& mesh) {
+  MeshStatistics out;
   std::map<std::set<Index>, std::vector<Index>> edges;
   std::set<std::multiset<Index>> seen;
   std::vector<std::set<Index>> faces_at(mesh.vertex_count());
@@ -112,29 +112,29 @@ Survey slow_survey(const Mesh& mesh) {
   return out;
 }
 
-RC_GTEST_PROP(Survey, AgreesWithItsDefinitionOnAnySoup, ()) {
+RC_GTEST_PROP(MeshStatistics, AgreesWithItsDefinitionOnAnySoup, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const auto vertices = *rc::gen::inRange<Index>(1, 30);
   const auto faces = *rc::gen::inRange<Index>(0, 50);
   const Mesh mesh = seed % 2 ? test::random_soup(seed, vertices, faces)
                              : test::polygon_soup(seed, vertices, faces);
-  Survey ours = survey(mesh);
+  MeshStatistics ours = mesh_statistics(mesh);
   RC_ASSERT(ours.components + ours.isolated_vertices <= vertices);
   ours.components = ours.isolated_vertices = 0;
-  RC_ASSERT(ours == slow_survey(mesh));
+  RC_ASSERT(ours == slow_statistics(mesh));
 }
 
-TEST(Survey, TakesAVertexOfAHundredThousandFaces) {
+TEST(MeshStatistics, TakesAVertexOfAHundredThousandFaces) {
   constexpr Index kFaces = 100'000;
   std::vector<Index> corners;
   for (Index i = 1; i <= kFaces; ++i) corners.insert(corners.end(), {0, i, i % kFaces + 1});
-  EXPECT_EQ(survey(mesh_of(kFaces + 1, corners)), Survey{.components = 1});
+  EXPECT_EQ(mesh_statistics(mesh_of(kFaces + 1, corners)), MeshStatistics{.components = 1});
 }
 
-TEST(Survey, CountsTheSameOnSeveralThreads) {
+TEST(MeshStatistics, CountsTheSameOnSeveralThreads) {
   const Mesh mesh = test::random_soup(1, 40'000, 300'000);
-  EXPECT_GT(survey(mesh).non_manifold_vertices, 30'000u);
-  EXPECT_EQ(survey(mesh, 3), survey(mesh));
+  EXPECT_GT(mesh_statistics(mesh).non_manifold_vertices, 30'000u);
+  EXPECT_EQ(mesh_statistics(mesh, 3), mesh_statistics(mesh));
 }
 
 }  // namespace
