@@ -106,7 +106,7 @@ struct Encoded {
   std::optional<SimplifyReport> report;  // when the collapses were chosen
 };
 
-// Progress of meshes that are encoded side by side, told by one thread at a time.
+// Progress of meshes that are encoded side by side, reported by one thread at a time.
 class SharedProgress {
  public:
   SharedProgress(const Progress& progress, std::size_t meshes)
@@ -118,7 +118,7 @@ class SharedProgress {
     const std::lock_guard lock(mutex_);
     sum_ += done - std::exchange(done_[mesh], done);
     const double share = std::clamp(sum_ / static_cast<double>(done_.size()), 0.0, 1.0);
-    stopped_ = stopped_ || !progress_(stage, share);  // nobody asks again
+    stopped_ = stopped_ || !progress_(stage, share);  // for good
     return !stopped_;
   }
 

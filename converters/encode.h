@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kMaxLevelCost = 100;
 struct EncodeOptions {
   MapEncoding encoding = MapEncoding::offset;
   std::string stripifier = "best";  ///< a name of stripifiers()
-  StripOptions strip_options{};     ///< `stop` may be asked by several threads at once
+  StripOptions strip_options{};     ///< `stop` may be called by several threads at once
   /// What a step counts for, in indices, that tears its strip at coarser levels; see
   /// level_step_cost(). Of the stripifiers, `best` looks at it. 1 is free: files get no larger.
   /// More shortens the strips of coarse levels and lengthens the file; 0 looks at the full mesh
@@ -64,7 +64,7 @@ struct SimplifyReport {
 /// any error of the scene the file then holds the fewest packets. Same model and options, same
 /// result, whatever the number of threads.
 ///
-/// progress is asked by several threads, one at a time
+/// progress is called by several threads, one at a time
 /// reports  one a mesh is added, unless null
 /// errors   bad_argument for an unknown stripifier or an inconsistent mesh or scene, over_limit
 ///          for a mesh that check_capacity() refuses (before any work) or that comes to more than

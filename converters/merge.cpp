@@ -16,7 +16,7 @@ const Attribute* same_in(const Mesh& mesh, const Attribute& wanted) {
 Model merge_meshes(const Model& model, std::vector<std::string>& notes) {
   Model out;
   out.scene = model.scene;
-  out.scene.foreign.clear();  // it speaks of the meshes as they were
+  out.scene.foreign.clear();  // it refers to the meshes as they were
   Mesh& all = out.meshes.emplace_back();
   if (model.meshes.empty()) {
     all.groups.resize(1);

@@ -8,7 +8,7 @@ namespace pstrips::inline core {
 /// those of the work itself one after the other. Unlike a prefetch instruction a load is not
 /// dropped where the address translation is not cached, which decides for arrays of many megabytes.
 template <class T>
-inline void touch(const T& value) {
+inline void prefetch(const T& value) {
   asm volatile("" : : "r"(value));
 }
 

@@ -84,7 +84,7 @@ class Annealer {
 
   void try_cut(HalfEdge h) {
     ++moves_;
-    const int rise = strip_price_ - paths_.swaps_with(h);
+    const int rise = strip_price_ - paths_.link_cost(h);
     if (!accepts(rise)) return;
     paths_.flip(h);
     cost_ += rise;
@@ -108,7 +108,7 @@ class Annealer {
   }
 
   bool try_join(HalfEdge h, Index neighbor) {
-    const int rise = paths_.swaps_with(h) - strip_price_;
+    const int rise = paths_.link_cost(h) - strip_price_;
     if (!accepts(rise)) return false;
     if (paths_.on_same_path(LinkedPaths::triangle_of(h), neighbor, race_steps_)) return false;
     paths_.flip(h);
@@ -121,9 +121,9 @@ class Annealer {
     const Index t = LinkedPaths::triangle_of(h);
     HalfEdge cut = paths_.first_link(neighbor), kept = paths_.other_link(cut);
     if (kept != kNone && random_.below(2) != 0) std::swap(cut, kept);
-    const int before = paths_.swaps_with(cut);
+    const int before = paths_.link_cost(cut);
     paths_.flip(cut);
-    const int rise = paths_.swaps_with(h) - before;
+    const int rise = paths_.link_cost(h) - before;
     if (!accepts(rise) || (kept != kNone && paths_.leads_to(kept, t, race_steps_))) {
       paths_.flip(cut);
       return t;

@@ -63,7 +63,7 @@ Triangles triangles_of(const Strips& strips, const PolygonInput& input) {
         out.corners.insert(out.corners.end(), {a, b, c});
       });
   if (input.group.empty()) return out;
-  // Strips come in ascending order of group, so how many triangles each has tells them apart.
+  // Strips come in ascending order of group, so the numbers of their triangles part them.
   for (std::size_t f = 0; f + 1 < input.face_first.size(); ++f)
     out.group.insert(out.group.end(), input.face_first[f + 1] - input.face_first[f] - 2,
                      input.group[f]);
@@ -122,7 +122,7 @@ std::int64_t cost(const Strips& strips, const StripOptions& options) {
 Strips improve(const StripInput& input, const DualGraph& graph, const Links& links,
                const StripOptions& given) {
   StripOptions options = given;
-  bool stopped = false;  // by whichever search asked; the ones after it are over at once
+  bool stopped = false;  // by any search; those after it end at once
   if (given.stop) options.stop = [&] { return stopped = stopped || given.stop(); };
   LinkedPaths paths(graph, links, input.step_cost);
   anneal(paths, annealing(options));

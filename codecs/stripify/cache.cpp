@@ -17,12 +17,12 @@ constexpr std::uint64_t kLoadPrice = 2;          // in entries
 
 // Which edge of a triangle a row leaves over if it can, seen from the edge it came in over. With
 // the strip beside it on that side, it winds along that strip.
-enum class Wall : std::uint8_t { none, before, after };
+enum class ExitSide : std::uint8_t { none, before, after };
 
 struct Start {
   Index triangle;
   Index exit;  // kNone: the row is this triangle
-  Wall wall;
+  ExitSide exit_side;
 };
 
 // The average cost of a triangle, as a fraction.
@@ -66,7 +66,7 @@ class Rows {
     Index first_exit;  // where the row leaves that
     Index older, newer;
     bool even;  // the turn without swap is to the edge before
-    Wall wall;
+    ExitSide exit_side;
   };
 
   struct Mark {
@@ -129,7 +129,7 @@ class Rows {
 
   void begin(const Start& start) {
     const Index lead = start.exit == kNone ? 3 * start.triangle : start.exit;
-    head_ = {start.triangle, kNone, start.exit, origin(lead), target(lead), true, start.wall};
+    head_ = {start.triangle, kNone, start.exit, origin(lead), target(lead), true, start.exit_side};
     take(start.triangle);
     if (!strips_.empty()) strips_.push_back(kRestart);
     write(origin(previous_in_triangle(lead)));
@@ -153,7 +153,8 @@ class Rows {
   Index next_exit() const {
     if (head_.entry == kNone) return head_.first_exit;
     Index wanted = previous_in_triangle(head_.entry), other = next_in_triangle(head_.entry);
-    const bool wants_before = head_.wall == Wall::none ? head_.even : head_.wall == Wall::before;
+    const bool wants_before =
+        head_.exit_side == ExitSide::none ? head_.even : head_.exit_side == ExitSide::before;
     if (!wants_before) std::swap(wanted, other);
     return is_open(wanted) ? wanted : is_open(other) ? other : kNone;
   }
@@ -186,11 +187,11 @@ class Rows {
 
   Start toward_origin(Index side) const {
     const Index entry = graph_.opposite[side];
-    return {triangle_of(entry), previous_in_triangle(entry), Wall::before};
+    return {triangle_of(entry), previous_in_triangle(entry), ExitSide::before};
   }
   Start toward_target(Index side) const {
     const Index entry = graph_.opposite[side];
-    return {triangle_of(entry), next_in_triangle(entry), Wall::after};
+    return {triangle_of(entry), next_in_triangle(entry), ExitSide::after};
   }
 
   // The row along `side` the way the wedges of the strip beside it were loaded.
@@ -199,7 +200,7 @@ class Rows {
     if (loaded_[target(side)] < loaded_[origin(side)]) std::swap(ahead, back);
     if (is_open(ahead.exit)) return ahead;
     if (is_open(back.exit)) return back;
-    return {ahead.triangle, kNone, Wall::none};
+    return {ahead.triangle, kNone, ExitSide::none};
   }
 
   // The first side from there on that the next row can start at with two wedges in the cache.
@@ -238,7 +239,7 @@ class Rows {
     const Start row = row_along(side);
     consider(row, best);
     if (row.exit == kNone) return;
-    consider(row.wall == Wall::before ? toward_target(side) : toward_origin(side), best);
+    consider(row.exit_side == ExitSide::before ? toward_target(side) : toward_origin(side), best);
   }
 
   void lay(const Trial& trial) {
@@ -252,9 +253,9 @@ class Rows {
   void lay_from(Index t) {
     Trial best;
     for (Index exit = 3 * t; exit < 3 * t + 3; ++exit)
-      for (const Wall wall : {Wall::none, Wall::before, Wall::after})
-        consider({t, exit, wall}, best);
-    if (best.length == 0) consider({t, kNone, Wall::none}, best);
+      for (const ExitSide exit_side : {ExitSide::none, ExitSide::before, ExitSide::after})
+        consider({t, exit, exit_side}, best);
+    if (best.length == 0) consider({t, kNone, ExitSide::none}, best);
     lay(best);
   }
 

@@ -22,8 +22,8 @@ struct Found {
   std::vector<std::pair<Index, Triangle>> triangles;  // with their groups
 };
 
-// `group` has one for each triangle there should be, ascending: groups come in that order, so how
-// many triangles came before tells the group.
+// `group` has one for each triangle there should be, ascending: groups come in that order, so the
+// number of triangles before one gives its group.
 Found decode(std::span<const Index> strips, std::span<const Index> group, Index wedge_count) {
   Found out;
   const auto fault = [&](const char* what) {

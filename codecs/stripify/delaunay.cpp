@@ -133,7 +133,7 @@ constexpr Index corner_at(Index half_edge) { return half_edge & 3; }
 constexpr Index after(Index corner) { return corner == 2 ? 0 : corner + 1; }
 constexpr Index before(Index corner) { return corner == 0 ? 2 : corner - 1; }
 
-/// A node of the history: asks on which side of a line a point is, or names a triangle.
+/// A node of the history: tests on which side of a line a point is, or names a triangle.
 struct Test {
   Index from;         // kNone: a leaf
   Index to;           // in a leaf, the triangle
@@ -198,7 +198,7 @@ class Triangulator {
   }
 
   // Building blocks. A triangle that is replaced leaves its place in the array to one of the new
-  // ones, and its leaf to the test that tells them apart.
+  // ones, and its leaf to the test that parts them.
 
   Index add_slot() {
     triangles_.emplace_back();
@@ -372,23 +372,23 @@ class Triangulator {
     }
   }
 
-  struct Blade {
+  struct FanTriangle {
     Index triangle;
     unsigned room;
   };
 
   // Steps over the border if the other side has room, too.
-  void step_out(Blade& blade) {
-    const Index o = triangles_[blade.triangle].link[1];
+  void step_out(FanTriangle& at_border) {
+    const Index o = triangles_[at_border.triangle].link[1];
     if (o == kNone || room(triangle_at(o)) == 0) return;
-    triangles_[blade.triangle].steps |= 2;
+    triangles_[at_border.triangle].steps |= 2;
     triangles_[triangle_at(o)].steps |= 1u << corner_at(o);
-    --blade.room;
+    --at_border.room;
   }
 
   // Writing. Most of the time that strips take is waiting for triangles from memory. So strips are
   // followed and written at once, those of the last round first, which is half of the triangles
-  // along the curve; and a triangle's neighbours are asked for before it is known which is next.
+  // along the curve; and a triangle's neighbours are prefetched before it is known which is next.
 
   // What joins two triangles of a strip: half-edges opposite to each other.
   struct Joint {
@@ -410,7 +410,7 @@ class Triangulator {
   void follow(Index t, unsigned steps) {
     for (;;) {
       Index k = steps ? static_cast<Index>(std::countr_zero(steps)) : kNone;
-      if (k == kNone || is_done(triangles_[t].link[k])) k = way_on(t);
+      if (k == kNone || is_done(triangles_[t].link[k])) k = next_exit(t);
       if (k == kNone) return;
       for (const Index o : triangles_[t].link) __builtin_prefetch(&triangles_[triangle_at(o)]);
       const Index entry = triangles_[t].link[k];
@@ -422,7 +422,7 @@ class Triangulator {
   bool is_done(Index half_edge) const { return triangles_[triangle_at(half_edge)].steps == kDone; }
   // To the end of a strip, or into one from the side: what is left of it are as many strips as
   // there were, and where it was a cycle, one less.
-  Index way_on(Index t) const {
+  Index next_exit(Index t) const {
     for (Index k = 0; k < 3; ++k)
       if (is_end(triangle_at(triangles_[t].link[k]))) return k;
     for (Index k = 0; k < 3; ++k)
@@ -462,9 +462,9 @@ class Triangulator {
   std::vector<Index> source_;   // which point of the input each is
   std::vector<Triangle> triangles_;
   std::vector<Test> history_;
-  std::vector<Index> suspects_;  // triangles of the new fan whose border may be illegal
-  std::vector<Blade> fan_;       // the triangles around the new point
-  std::vector<Joint> path_;      // of the strip that is written
+  std::vector<Index> suspects_;   // triangles of the new fan whose border may be illegal
+  std::vector<FanTriangle> fan_;  // the triangles around the new point
+  std::vector<Joint> path_;       // of the strip that is written
   Strips strips_;
 };
 

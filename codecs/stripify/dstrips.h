@@ -5,7 +5,7 @@
 namespace pstrips::inline codecs {
 
 // The stripping methods of DStrips, applied to a whole mesh: a strip grows in one direction from
-// the first free triangle of a work list, by what its neighbours alone tell, until it is stuck;
+// the first free triangle of a work list, by its neighbours alone, until it is stuck;
 // each free neighbour it passes by goes to the end of the list. When the list is empty, the next
 // connected part starts at its lowest triangle. Each O(n). [Shafae03 §5]
 //

@@ -40,7 +40,7 @@ class Outline {
     return from_1 > from_0 ? 2 : 1;  // as triangulate()
   }
 
-  // Left turns only, once around: every fan from a corner winds one way.
+  // Left turns only, once around: every fan from a corner winds one chosen.
   bool is_strictly_convex() const {
     const std::size_t n = points_.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -155,7 +155,7 @@ void join_faces(StripFaces& faces) {
   part_double_corners(faces);
 }
 
-// ---- How a strip passes a face
+// ---- How a strip crosses a face
 //
 // A strip stands on an edge, which it has entered a face over. It goes on by triangles between the
 // edge and a neighbouring corner of the face: either the edge's target moves on to the next corner
@@ -165,7 +165,7 @@ enum Step : std::uint8_t { kOrigin, kTarget };
 constexpr Step other(Step s) { return s == kOrigin ? kTarget : kOrigin; }
 
 // The steps that lead from one edge of a face to another.
-struct Passage {
+struct Crossing {
   std::array<Index, 2> steps;  // of the origin, of the target
   std::array<bool, 2> may_start;
 
@@ -191,10 +191,10 @@ struct Passage {
   }
 };
 
-Passage passage(const StripFaces& faces, Index entry, Index exit) {
+Crossing crossing_of(const StripFaces& faces, Index entry, Index exit) {
   const Index f = faces.face[entry], n = faces.size(f);
   const Index ahead = (exit + n - entry) % n;  // both in the same face
-  Passage p{{n - ahead - 1, ahead - 1}, {true, true}};
+  Crossing p{{n - ahead - 1, ahead - 1}, {true, true}};
   if (n == 4) {
     const Index corner = entry - faces.first[f];
     p.may_start[kTarget] = (faces.may_cut[f] >> (corner % 2) & 1) != 0;
@@ -206,7 +206,7 @@ Passage passage(const StripFaces& faces, Index entry, Index exit) {
 // Calls visit(entry, exit) with the half-edges of a face visit. Where there is none, the face's
 // corners are shared out evenly between the two sides, which takes no swap.
 template <class Visit>
-void for_each_way(const StripFaces& faces, const FaceVisit& v, Visit&& visit) {
+void for_each_crossing(const StripFaces& faces, const FaceVisit& v, Visit&& visit) {
   const Index n = faces.size(v.face);
   for (const Index half : {n / 2, n - n / 2}) {
     const Index entry = v.entry != kNone  ? v.entry
@@ -218,8 +218,8 @@ void for_each_way(const StripFaces& faces, const FaceVisit& v, Visit&& visit) {
   }
 }
 
-// How the cheapest way through a face begins, for each step that it can end with.
-struct Way {
+// How the cheapest crossing of a face begins, given the step that it ends with.
+struct CheapestCrossing {
   std::uint32_t swaps = SwapCounts::kImpossible;  // of the strip so far
   Index entry = kNone, exit = kNone;
   Step first = kOrigin, last_before = kOrigin;
@@ -231,10 +231,11 @@ bool starts_badly(const StripFaces& faces, const FaceVisit& visit, Step first) {
   return visit.entry == kNone && faces.size(visit.face) == 4 && first == kTarget;
 }
 
-std::array<Way, 2> ways(const StripFaces& faces, const FaceVisit& visit, const SwapCounts& before) {
-  std::array<Way, 2> out;
-  for_each_way(faces, visit, [&](Index entry, Index exit) {
-    const Passage p = passage(faces, entry, exit);
+std::array<CheapestCrossing, 2> cheapest_crossings(const StripFaces& faces, const FaceVisit& visit,
+                                                   const SwapCounts& before) {
+  std::array<CheapestCrossing, 2> out;
+  for_each_crossing(faces, visit, [&](Index entry, Index exit) {
+    const Crossing p = crossing_of(faces, entry, exit);
     for (const Step last : {kOrigin, kTarget})
       for (const Step first : {kOrigin, kTarget}) {
         const std::uint32_t inside = p.swaps(first, last) + starts_badly(faces, visit, first);
@@ -248,7 +249,7 @@ std::array<Way, 2> ways(const StripFaces& faces, const FaceVisit& visit, const S
   return out;
 }
 
-SwapCounts counts_of(const std::array<Way, 2>& w) {
+SwapCounts counts_of(const std::array<CheapestCrossing, 2>& w) {
   return {{std::min(w[0].swaps, SwapCounts::kImpossible),
            std::min(w[1].swaps, SwapCounts::kImpossible)}};
 }
@@ -279,36 +280,36 @@ class Cutter {
     choose(strip);
     last_exit_ = kNone;
     for (std::size_t i = 0; i < strip.size(); ++i)
-      write(strip[i].face, ways_[i][last_[i]], last_[i]);
+      write(strip[i].face, crossings_[i][last_[i]], last_[i]);
   }
 
   void choose(std::span<const FaceVisit> strip) {
-    ways_.clear();
+    crossings_.clear();
     SwapCounts counts;
     for (const FaceVisit& visit : strip) {
-      ways_.push_back(ways(faces_, visit, counts));
-      counts = counts_of(ways_.back());
+      crossings_.push_back(cheapest_crossings(faces_, visit, counts));
+      counts = counts_of(crossings_.back());
     }
     assert(counts.fewest() < SwapCounts::kImpossible);
     last_.resize(strip.size());
     Step last = counts.by_last_step[kOrigin] <= counts.by_last_step[kTarget] ? kOrigin : kTarget;
     for (std::size_t i = strip.size(); i-- > 0;) {
       last_[i] = last;
-      last = ways_[i][last].last_before;
+      last = crossings_[i][last].last_before;
     }
   }
 
-  void write(Index face, const Way& way, Step last) {
-    const Passage p = passage(faces_, way.entry, way.exit);
-    Passage::Runs runs = p.runs(way.first, last);
+  void write(Index face, const CheapestCrossing& chosen, Step last) {
+    const Crossing p = crossing_of(faces_, chosen.entry, chosen.exit);
+    Crossing::Runs runs = p.runs(chosen.first, last);
     const Index count = runs.first_kind + runs.other_kind;
     // What is left over goes into the first run of its kind.
     std::array<Index, 2> spare{};
-    spare[way.first] = p.steps[way.first] - runs.first_kind;
-    spare[other(way.first)] = p.steps[other(way.first)] - runs.other_kind;
-    origin_ = way.entry;
-    target_ = faces_.turned(way.entry, 1);
-    Step step = way.first;
+    spare[chosen.first] = p.steps[chosen.first] - runs.first_kind;
+    spare[other(chosen.first)] = p.steps[other(chosen.first)] - runs.other_kind;
+    origin_ = chosen.entry;
+    target_ = faces_.turned(chosen.entry, 1);
+    Step step = chosen.first;
     for (Index i = 0; i < count; ++i, step = other(step))
       for (Index k = 1 + std::exchange(spare[step], 0); k > 0; --k) add_triangle(face, step);
   }
@@ -337,7 +338,7 @@ class Cutter {
   DualGraph graph_;  // of the triangles that follow each other only
   Links links_;
   // Of the strip at hand.
-  std::vector<std::array<Way, 2>> ways_;
+  std::vector<std::array<CheapestCrossing, 2>> crossings_;
   std::vector<Step> last_;
   Index origin_ = kNone, target_ = kNone, last_exit_ = kNone;
 };
@@ -380,7 +381,7 @@ StripFaces make_strip_faces(const StripInput& input) {
 std::uint32_t SwapCounts::fewest() const { return std::min(by_last_step[0], by_last_step[1]); }
 
 SwapCounts pass(const StripFaces& faces, const FaceVisit& visit, const SwapCounts& before) {
-  return counts_of(ways(faces, visit, before));
+  return counts_of(cheapest_crossings(faces, visit, before));
 }
 
 Strips emit_face_strips(const StripFaces& faces, std::span<const FaceVisit> visits) {

@@ -147,7 +147,7 @@ class Joiner {
       if (!paths_.has_opposite(h) || paths_.is_linked(h)) continue;
       const Index n = neighbor(h);
       if (!paths_.is_end(n) || index_.mate(t) == n) continue;
-      const int swaps = paths_.swaps_with(h);
+      const int swaps = paths_.link_cost(h);
       if (best != kNone && swaps >= fewest_swaps) continue;
       best = h;
       fewest_swaps = swaps;
@@ -174,9 +174,9 @@ class Joiner {
         if (undoes) continue;
         const Index new_end = neighbor(cut);
         const Index distance = seen_[new_end] == search_ ? distance_[new_end] : reach + 2;
-        const int before = paths_.swaps_with(cut);
+        const int before = paths_.link_cost(cut);
         paths_.flip(cut);
-        const int swaps = paths_.swaps_with(h) - before;
+        const int swaps = paths_.link_cost(h) - before;
         paths_.flip(cut);
         const Index score = kEdge * (distance + 6) + random_.below(kNoise + 1) +
                             static_cast<Index>(static_cast<int>(kSwap) * swaps) +

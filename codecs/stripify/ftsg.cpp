@@ -264,7 +264,7 @@ class Concatenation {
     const Index s = LinkedPaths::triangle_of(h);
     if (!paths_.is_end(s) || !paths_.has_opposite(h) || paths_.is_linked(h)) return;
     const Index t = LinkedPaths::triangle_of(paths_.opposite(h));
-    if (!paths_.is_end(t) || mate_[s] == t || paths_.swaps_with(h) > most_swaps) return;
+    if (!paths_.is_end(t) || mate_[s] == t || paths_.link_cost(h) > most_swaps) return;
     paths_.flip(h);
     const Index end = mate_[s], other_end = mate_[t];
     mate_[end] = other_end;

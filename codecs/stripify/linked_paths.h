@@ -54,8 +54,9 @@ class LinkedPaths {
     linked_[o >> 2] ^= static_cast<std::uint8_t>(1u << (o & 3));
   }
 
-  /// How many swaps a link over h takes part in, whether it is there or not; at most 6.
-  int swaps_with(HalfEdge h) const {
+  /// What a link over h costs, whether it is there or not: the swaps that it takes part in, at most
+  /// 6, and the step over it.
+  int link_cost(HalfEdge h) const {
     const HalfEdge o = opposite_[h];
     const int swaps = swaps_around(h, o) + swaps_around(o, h);
     return step_cost_.empty() ? swaps : swaps + step_cost_[h];

@@ -32,7 +32,7 @@ Links multi_path_links(const DualGraph& graph);
 ///              the mesh: strips then run around that corner. Also taken when there are no
 ///              positions. Ours; the thesis leaves it open
 ///
-/// Differences are told apart to a sixteenth, and not at all below 2^-16 of the largest, so that
+/// Differences count to a sixteenth, and not at all below 2^-16 of the largest, so that
 /// candidates stay in buckets: the thesis searches the whole class for the least one.
 ///
 /// cost  O(n)

@@ -17,7 +17,7 @@ class StraightRuns {
  public:
   explicit StraightRuns(const StripFaces& faces);
 
-  /// To be told of every face that is taken; other faces than quads are ignored.
+  /// To be called for every face that is taken; other faces than quads are ignored.
   void take(Index face);
 
   /// A longest row of at least `least` quads, as the half-edge over which each is left; among

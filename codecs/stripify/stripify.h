@@ -60,7 +60,7 @@ struct StripOptions {
   std::uint32_t tunnel_length = 75;
   /// Steps of all searches for tunnels together, a triangle; 2 to 5 are enough for most meshes.
   std::uint32_t tunnel_effort = 32;
-  /// Asked every few thousand steps of a long search; true ends it with the best strips so far.
+  /// Called every few thousand steps of a long search; true ends it with the best strips so far.
   /// The only way for time to change a result. May be empty.
   std::function<bool()> stop = {};
 };
@@ -78,7 +78,7 @@ struct NamedStripifier {
   std::string_view name;    ///< as on the command line
   std::string_view source;  ///< key in spec/references.md and section, or where ours is described
   Stripifier run;
-  PolygonStripifier run_polygons = nullptr;  ///< nullptr: wants its faces triangulated
+  PolygonStripifier run_polygons = nullptr;  ///< nullptr: takes triangles only
   bool honors_goal = false;                  ///< StripOptions::goal changes what it does
   bool honors_weight = false;                ///< and StripOptions::weight
   bool uses_positions = false;

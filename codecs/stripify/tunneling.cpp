@@ -166,7 +166,7 @@ class Tunneler {
   int change_tunnel(HalfEdge last_link) {
     int swaps = 0;
     const auto flip = [&](HalfEdge h) {
-      swaps += paths_.is_linked(h) ? -paths_.swaps_with(h) : paths_.swaps_with(h);
+      swaps += paths_.is_linked(h) ? -paths_.link_cost(h) : paths_.link_cost(h);
       paths_.flip(h);
     };
     for (std::size_t i = 1; i < branch_.size(); ++i) {

@@ -11,12 +11,12 @@
 #include <numeric>
 
 #include "codecs/vsplit/in_order.h"
-#include "core/touch.h"
+#include "core/prefetch.h"
 
 namespace pstrips::inline codecs {
 namespace {
 
-// An entry of the map with all that a collapse asks of it: entries are visited in an order that
+// An entry of the map with all that a collapse needs of it: entries are visited in an order that
 // jumps across the mesh, so that what counts is how many cache lines a visit takes.
 struct Entry {
   Index wedge;         // that it stands for; kRestart between strips
@@ -35,7 +35,7 @@ class Recorder {
  public:
   Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSequence& sequence,
            MapEncoding encoding);
-  void remove_lone_vertices();
+  void remove_isolated_vertices();
   void collapse_all();
   Recording finish(const StripMap& strips) &&;
 
@@ -223,7 +223,7 @@ void Recorder::begin_removal(Index vertex, Index parent) {
   out_.levels.push_back({triangles_, 0});
 }
 
-void Recorder::remove_lone_vertices() {
+void Recorder::remove_isolated_vertices() {
   std::vector<bool> used(mesh_.vertex_count());
   for (const Entry& e : entries_)
     if (e.wedge != kRestart) used[vertex_of(e.wedge)] = true;
@@ -241,20 +241,20 @@ void Recorder::remove_lone_vertices() {
   }
 }
 
-// Touches what the next moves will ask for.
+// Prefetches what the next moves need.
 void Recorder::fetch(std::span<const WedgeMove> moves) {
   std::array<Index, kFetched> at;
   for (std::size_t i = 0; i < moves.size(); ++i) {
     at[i] = first_entry_[moves[i].from];
-    if (moves[i].to != kNone) touch(first_entry_[moves[i].to]);
+    if (moves[i].to != kNone) prefetch(first_entry_[moves[i].to]);
   }
   constexpr int kSteps = 3;  // lists of entries are hardly ever longer
   for (int step = 0; step < kSteps; ++step)
     for (std::size_t i = 0; i < moves.size(); ++i) {
       if (at[i] >= kRemoved) continue;
       const Entry* const e = &entry(at[i]);
-      touch(e[-2].wedge);
-      touch(e[2].wedge);
+      prefetch(e[-2].wedge);
+      prefetch(e[2].wedge);
       at[i] = e->next;
     }
 }
@@ -454,7 +454,7 @@ Recording record(const Mesh& mesh, const StripMap& strips, const CollapseSequenc
   assert(sequence.placements.empty() ||
          sequence.placements.size() == 3 * sequence.collapses.size());
   Recorder recorder(mesh, strips, sequence, encoding);
-  recorder.remove_lone_vertices();
+  recorder.remove_isolated_vertices();
   recorder.collapse_all();
   return std::move(recorder).finish(strips);
 }

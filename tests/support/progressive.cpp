@@ -10,9 +10,9 @@
 namespace pstrips::test {
 namespace {
 
-class Dice {
+class RandomSource {
  public:
-  explicit Dice(std::uint32_t seed) : random_(seed) {}
+  explicit RandomSource(std::uint32_t seed) : random_(seed) {}
   Index below(std::size_t n) { return static_cast<Index>(random_() % n); }
   bool one_in(std::size_t n) { return below(n) == 0; }
   void append(Bytes& bytes, std::size_t n) {
@@ -28,9 +28,9 @@ class Dice {
 };
 
 /// Positions are small numbers, so that errors and bounds make sense to whoever reads them.
-void append_position(Dice& dice, const Attribute& format, Bytes& bytes) {
+void append_position(RandomSource& random, const Attribute& format, Bytes& bytes) {
   for (int c = 0; c < format.count; ++c) {
-    const float x = static_cast<float>(dice.below(32)) / 4;
+    const float x = static_cast<float>(random.below(32)) / 4;
     const double d = x;
     const auto* at = format.type == ComponentType::f64 ? reinterpret_cast<const std::byte*>(&d)
                                                        : reinterpret_cast<const std::byte*>(&x);
@@ -127,11 +127,11 @@ void count_level(const State& s, Packet& level) {
   level.strips = strips_with_triangles(triangles);
 }
 
-void make_groups(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
+void make_groups(RandomSource& random, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
   const Index materials = options.scene ? 2 : 0;
-  for (Index i = 0, n = 1 + dice.below(2); i < n; ++i)
+  for (Index i = 0, n = 1 + random.below(2); i < n; ++i)
     mesh.groups.push_back({"part " + std::to_string(i),
-                           materials > 0 && dice.one_in(2) ? dice.below(materials) : kNone,
+                           materials > 0 && random.one_in(2) ? random.below(materials) : kNone,
                            FaceKind::polygons});
   if (options.faces) {
     mesh.groups.push_back({"edges", kNone, FaceKind::lines});
@@ -140,26 +140,26 @@ void make_groups(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh&
   mesh.group_entries.resize(mesh.groups.size());
 }
 
-void make_base(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
+void make_base(RandomSource& random, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
   mesh.base_vertices = options.base_vertices;
   for (Index v = 0; v < mesh.base_vertices; ++v) {
-    append_position(dice, mesh.position, mesh.position.data);
-    for (Index n = mesh.single_wedges ? 1 : 1 + dice.below(2); n > 0; --n, ++mesh.base_wedges)
+    append_position(random, mesh.position, mesh.position.data);
+    for (Index n = mesh.single_wedges ? 1 : 1 + random.below(2); n > 0; --n, ++mesh.base_wedges)
       if (!mesh.single_wedges) mesh.base_wedge_vertex.push_back(v);
   }
   if (mesh.base_wedges == 0) return;
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     if (mesh.groups[g].kind != FaceKind::polygons) continue;
     const std::size_t before = mesh.base_map.size();
-    for (Index n = 1 + dice.below(3); n > 0; --n) {
+    for (Index n = 1 + random.below(3); n > 0; --n) {
       if (!mesh.base_map.empty()) mesh.base_map.push_back(kRestart);
-      std::vector<Index> strip(3 + dice.below(6));
-      for (Index& entry : strip) entry = dice.below(mesh.base_wedges);
+      std::vector<Index> strip(3 + random.below(6));
+      for (Index& entry : strip) entry = random.below(mesh.base_wedges);
       if (mesh.encoding == MapEncoding::offset)
         for (Index& entry : strip) {
           const Index wedge = entry;
           constexpr int kDistances[] = {-2, -1, 1, 2};
-          if (dice.one_in(3)) entry = symbol_of(kDistances[dice.below(4)]);
+          if (random.one_in(3)) entry = symbol_of(kDistances[random.below(4)]);
           if (!resolve(strip)) entry = wedge;
         }
       mesh.base_map.insert(mesh.base_map.end(), strip.begin(), strip.end());
@@ -171,16 +171,16 @@ void make_base(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh& m
   }
 }
 
-void make_vsplit(Dice& dice, const State& s, ProgressiveMesh& mesh) {
-  const bool own = s.vertices == 0 || dice.one_in(8);
-  Vsplit split{own ? s.vertices : dice.below(s.vertices), 0, 0, 0};
-  append_position(dice, mesh.position, mesh.position.data);
+void make_vsplit(RandomSource& random, const State& s, ProgressiveMesh& mesh) {
+  const bool own = s.vertices == 0 || random.one_in(8);
+  Vsplit split{own ? s.vertices : random.below(s.vertices), 0, 0, 0};
+  append_position(random, mesh.position, mesh.position.data);
   if (mesh.placement == Placement::optimal) {
     if (own) {
       const ByteView same = mesh.position.element(s.vertices);
       mesh.parent_position.insert(mesh.parent_position.end(), same.begin(), same.end());
     } else {
-      append_position(dice, mesh.position, mesh.parent_position);
+      append_position(random, mesh.position, mesh.parent_position);
     }
   }
   const auto belongs = [&](Index wedge) {
@@ -190,32 +190,34 @@ void make_vsplit(Dice& dice, const State& s, ProgressiveMesh& mesh) {
   for (Index w = 0; w < s.wedge_vertex.size(); ++w) staying += belongs(w);
   if (!mesh.single_wedges)
     for (Index w = 0; w < s.wedge_vertex.size(); ++w)
-      if (belongs(w) && staying > 1 && dice.one_in(3)) {
+      if (belongs(w) && staying > 1 && random.one_in(3)) {
         mesh.reassigned.push_back(w);
         ++split.reassigned;
         --staying;
       }
   split.wedges = mesh.single_wedges || split.reassigned == 0 ? 1 : 0;
-  if (!mesh.single_wedges) split.wedges += dice.below(2);
+  if (!mesh.single_wedges) split.wedges += random.below(2);
   std::vector<std::vector<Index>> map_offsets(split.wedges);
   const std::vector<Index> resolved = resolve(s.map).value();
   for (Index i = 0; i < resolved.size() && split.wedges > 0; ++i)
-    if (belongs(resolved[i]) && !dice.one_in(3)) map_offsets[dice.below(split.wedges)].push_back(i);
+    if (belongs(resolved[i]) && !random.one_in(3))
+      map_offsets[random.below(split.wedges)].push_back(i);
   for (const std::vector<Index>& of_wedge : map_offsets) {
     mesh.wedge_offset_counts.push_back(static_cast<Index>(of_wedge.size()));
     mesh.map_offsets.insert(mesh.map_offsets.end(), of_wedge.begin(), of_wedge.end());
     split.map_offsets += static_cast<Index>(of_wedge.size());
-    for (Attribute& a : mesh.wedge_attributes) dice.append(a.data, a.element_bytes());
+    for (Attribute& a : mesh.wedge_attributes) random.append(a.data, a.element_bytes());
   }
   mesh.vsplits.push_back(split);
 }
 
-void make_faces(Dice& dice, const std::vector<Triangle>& triangles, ProgressiveMesh& mesh) {
+void make_faces(RandomSource& random, const std::vector<Triangle>& triangles,
+                ProgressiveMesh& mesh) {
   FaceTable& faces = mesh.faces;
   if (mesh.wedges > 0) {
     faces.first = faces.replaced_first = {0};
     const auto add = [&](Index corners, Index group) {
-      for (; corners > 0; --corners) faces.corners.push_back(dice.below(mesh.wedges));
+      for (; corners > 0; --corners) faces.corners.push_back(random.below(mesh.wedges));
       faces.first.push_back(static_cast<Index>(faces.corners.size()));
       faces.group.push_back(group);
       faces.replaced_first.push_back(static_cast<Index>(faces.replaced.size()));
@@ -230,20 +232,20 @@ void make_faces(Dice& dice, const std::vector<Triangle>& triangles, ProgressiveM
     }
     const auto groups = static_cast<Index>(mesh.groups.size());
     add(3, 0);
-    add(2 + dice.below(3), groups - 2);
+    add(2 + random.below(3), groups - 2);
     add(1, groups - 1);
   }
   mesh.face_attribute_formats.push_back({"_FACE_ID", ComponentType::u16, 1, false, {}});
   faces.attributes = mesh.face_attribute_formats;
-  dice.append(faces.attributes[0].data,
-              2 * (triangles.size() - faces.replaced.size() + faces.count()));
+  random.append(faces.attributes[0].data,
+                2 * (triangles.size() - faces.replaced.size() + faces.count()));
 }
 
-void make_order(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
+void make_order(RandomSource& random, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
   const auto permutation = [&](std::size_t n) {
     std::vector<Index> out(n);
     std::iota(out.begin(), out.end(), Index{0});
-    dice.shuffle(out);
+    random.shuffle(out);
     return out;
   };
   mesh.order.vertex = permutation(mesh.vertices);
@@ -251,29 +253,30 @@ void make_order(Dice& dice, const ProgressiveOptions& options, ProgressiveMesh& 
   const std::size_t triangles = mesh.triangles - mesh.faces.replaced.size();
   mesh.order.face = permutation(triangles + mesh.faces.count());
   for (std::size_t f = 0; f < mesh.order.face.size(); ++f)
-    mesh.order.rotation.push_back(static_cast<std::uint8_t>(dice.below(
+    mesh.order.rotation.push_back(static_cast<std::uint8_t>(random.below(
         f < triangles ? 3
                       : mesh.faces.first[f - triangles + 1] - mesh.faces.first[f - triangles])));
 }
 
-ProgressiveMesh make_mesh(Dice& dice, const ProgressiveOptions& options, Index index) {
+ProgressiveMesh make_mesh(RandomSource& random, const ProgressiveOptions& options, Index index) {
   ProgressiveMesh mesh;
   mesh.name = "mesh " + std::to_string(index);
   mesh.encoding = options.encoding;
   mesh.placement = options.placement;
   mesh.single_wedges = options.single_wedges;
   mesh.position = {
-      "POSITION", dice.one_in(4) ? ComponentType::f64 : ComponentType::f32, 3, false, {}};
-  if (!options.single_wedges || dice.one_in(2))
+      "POSITION", random.one_in(4) ? ComponentType::f64 : ComponentType::f32, 3, false, {}};
+  if (!options.single_wedges || random.one_in(2))
     mesh.wedge_attributes.push_back({"TEXCOORD_0", ComponentType::f32, 2, false, {}});
-  if (dice.one_in(3)) mesh.wedge_attributes.push_back({"COLOR_0", ComponentType::u8, 3, true, {}});
-  make_groups(dice, options, mesh);
-  make_base(dice, options, mesh);
+  if (random.one_in(3))
+    mesh.wedge_attributes.push_back({"COLOR_0", ComponentType::u8, 3, true, {}});
+  make_groups(random, options, mesh);
+  make_base(random, options, mesh);
   for (Attribute& a : mesh.wedge_attributes)
-    dice.append(a.data, a.element_bytes() * mesh.base_wedges);
+    random.append(a.data, a.element_bytes() * mesh.base_wedges);
   State s = base_state(mesh);
   for (std::size_t i = 0; i < options.vsplits; ++i) {
-    make_vsplit(dice, s, mesh);
+    make_vsplit(random, s, mesh);
     apply(s, mesh, i);
   }
   const std::vector<Triangle> triangles = triangles_of(s);
@@ -281,8 +284,8 @@ ProgressiveMesh make_mesh(Dice& dice, const ProgressiveOptions& options, Index i
   mesh.wedges = static_cast<Index>(s.wedge_vertex.size());
   mesh.triangles = static_cast<Index>(triangles.size());
   mesh.strips = strips_with_triangles(triangles);
-  if (options.faces) make_faces(dice, triangles, mesh);
-  if (options.order) make_order(dice, options, mesh);
+  if (options.faces) make_faces(random, triangles, mesh);
+  if (options.order) make_order(random, options, mesh);
   if (options.digest) {
     const Digest d = digest(decode_slowly(mesh, mesh.vsplits.size()));
     mesh.digest.assign(d.begin(), d.end());
@@ -290,14 +293,15 @@ ProgressiveMesh make_mesh(Dice& dice, const ProgressiveOptions& options, Index i
   return mesh;
 }
 
-void make_packets(Dice& dice, const ProgressiveOptions& options, ProgressiveStrips& strips) {
+void make_packets(RandomSource& random, const ProgressiveOptions& options,
+                  ProgressiveStrips& strips) {
   for (Index m = 0; m < strips.meshes.size(); ++m) {
     const auto vsplits = static_cast<Index>(strips.meshes[m].vsplits.size());
     float error = vsplits == 0 ? 0.f : 16.f;
     strips.bases.push_back({.mesh = m, .error = error, .one_sided_error = error / 2});
     for (Index first = 0; first < vsplits; first += options.packet_vsplits) {
       const Index n = std::min(options.packet_vsplits, vsplits - first);
-      error = first + n == vsplits ? 0.f : error * static_cast<float>(1 + dice.below(8)) / 8;
+      error = first + n == vsplits ? 0.f : error * static_cast<float>(1 + random.below(8)) / 8;
       strips.packets.push_back({.mesh = m,
                                 .first_vsplit = first,
                                 .vsplits = n,
@@ -308,52 +312,52 @@ void make_packets(Dice& dice, const ProgressiveOptions& options, ProgressiveStri
   std::ranges::stable_sort(strips.packets, std::ranges::greater{}, &Packet::error);
 }
 
-void make_scene(Dice& dice, ProgressiveStrips& strips) {
+void make_scene(RandomSource& random, ProgressiveStrips& strips) {
   strips.generator = "tests";
   Scene& scene = strips.scene;
   scene.materials = {{.name = "red", .base_color = {1, 0.25, 0, 1}, .base_color_image = 1},
                      {.name = "glow", .emissive = {0.5, 0.5, 2}, .double_sided = true}};
   scene.images = {{"wood", "textures/wood.png", "", {}}, {"", "", "image/png", {}}};
-  dice.append(scene.images[1].data, 5);
+  random.append(scene.images[1].data, 5);
   scene.nodes.resize(2);
   scene.nodes[0].name = "root";
   scene.nodes[1].parent = 0;
   scene.nodes[1].matrix[12] = -2.5;
   for (Index m = 0; m < strips.meshes.size(); ++m) scene.nodes[m % 2].meshes.push_back(m);
   scene.foreign = {{"ply/comments", {}}, {"gltf/extras", {}}};
-  dice.append(scene.foreign[1].data, 11);
+  random.append(scene.foreign[1].data, 11);
 }
 
 }  // namespace
 
 ProgressiveStrips random_progressive(std::uint32_t seed, const ProgressiveOptions& options) {
-  Dice dice(seed);
+  RandomSource random(seed);
   ProgressiveStrips strips;
-  for (Index m = 0; m < options.meshes; ++m) strips.meshes.push_back(make_mesh(dice, options, m));
-  make_packets(dice, options, strips);
+  for (Index m = 0; m < options.meshes; ++m) strips.meshes.push_back(make_mesh(random, options, m));
+  make_packets(random, options, strips);
   recount_levels(strips);
-  if (options.scene) make_scene(dice, strips);
+  if (options.scene) make_scene(random, strips);
   if (options.unknown)
     for (const std::size_t bytes : {0, 5}) {
       strips.unknown.push_back({{'x', 'Y', 'Z', bytes == 0 ? 'a' : 'B'}, {}});
-      dice.append(strips.unknown.back().payload, bytes);
+      random.append(strips.unknown.back().payload, bytes);
     }
   return strips;
 }
 
 ProgressiveStrips random_progressive_of_any_kind(std::uint32_t seed) {
-  Dice dice(seed);
+  RandomSource random(seed);
   ProgressiveOptions options;
-  options.meshes = dice.below(4);
-  options.base_vertices = dice.below(7);
-  options.vsplits = dice.below(9);
-  options.packet_vsplits = 1 + dice.below(4);
-  options.encoding = static_cast<MapEncoding>(dice.below(2));
-  options.placement = static_cast<Placement>(dice.below(2));
+  options.meshes = random.below(4);
+  options.base_vertices = random.below(7);
+  options.vsplits = random.below(9);
+  options.packet_vsplits = 1 + random.below(4);
+  options.encoding = static_cast<MapEncoding>(random.below(2));
+  options.placement = static_cast<Placement>(random.below(2));
   for (bool* choice : {&options.single_wedges, &options.scene, &options.faces, &options.order,
                        &options.digest, &options.unknown})
-    *choice = dice.one_in(2);
-  return random_progressive(dice.below(1u << 31), options);
+    *choice = random.one_in(2);
+  return random_progressive(random.below(1u << 31), options);
 }
 
 Mesh decode_slowly(const ProgressiveMesh& mesh, std::size_t vsplits) {
