@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <mutex>
 #include <numeric>
 #include <queue>
@@ -18,6 +17,8 @@
 #include "converters/level_cost.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
+#include "core/equal_elements.h"
+#include "core/gather.h"
 #include "core/parallel.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/digest.h"
@@ -359,27 +360,19 @@ struct JoinedWedges {
 
 // Wedges are equal that stand at one vertex with the same bytes in every attribute.
 JoinedWedges join_equal_wedges(const Mesh& mesh) {
-  const auto compare = [&](Index a, Index b) {
-    if (mesh.vertex_of(a) != mesh.vertex_of(b))
-      return mesh.vertex_of(a) < mesh.vertex_of(b) ? -1 : 1;
-    for (const Attribute& attribute : mesh.wedge_attributes)
-      if (const int order = std::memcmp(attribute.element(a).data(), attribute.element(b).data(),
-                                        attribute.element_bytes()))
-        return order;
-    return 0;
-  };
-  std::vector<Index> sorted(mesh.wedge_count());
-  std::iota(sorted.begin(), sorted.end(), Index{0});
-  std::ranges::sort(sorted, [&](Index a, Index b) {
-    const int order = compare(a, b);
-    return order != 0 ? order < 0 : a < b;
-  });
-  std::vector<Index> first(sorted.size());  // of each wedge's set
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-    first[sorted[i]] =
-        i > 0 && compare(sorted[i - 1], sorted[i]) == 0 ? first[sorted[i - 1]] : sorted[i];
+  std::size_t row_bytes = sizeof(Index);
+  for (const Attribute& a : mesh.wedge_attributes) row_bytes += a.element_bytes();
+  Bytes rows;
+  rows.reserve(row_bytes * mesh.wedge_count());
+  const auto append = [&](ByteView bytes) { rows.insert(rows.end(), bytes.begin(), bytes.end()); };
+  for (Index w = 0; w < mesh.wedge_count(); ++w) {
+    const Index vertex = mesh.vertex_of(w);
+    append(std::as_bytes(std::span(&vertex, 1)));
+    for (const Attribute& a : mesh.wedge_attributes) append(a.element(w));
+  }
+  const std::vector<Index> first = first_equals(rows, row_bytes, 1);  // of each wedge's set
   JoinedWedges out;
-  out.to.resize(sorted.size());
+  out.to.resize(first.size());
   for (Index w = 0; w < first.size(); ++w) {
     if (first[w] == w) out.kept.push_back(w);
     out.to[w] = first[w] == w ? static_cast<Index>(out.kept.size() - 1) : out.to[first[w]];
@@ -413,15 +406,7 @@ void keep_attributes(Model& model, const std::vector<std::string>& semantics) {
     const auto [kept, to] = join_equal_wedges(mesh);
     std::vector<Index> wedge_vertex(kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i) wedge_vertex[i] = mesh.vertex_of(kept[i]);
-    for (Attribute& a : mesh.wedge_attributes) {
-      Bytes data;
-      data.reserve(kept.size() * a.element_bytes());
-      for (const Index w : kept) {
-        const ByteView element = a.element(w);
-        data.insert(data.end(), element.begin(), element.end());
-      }
-      a.data = std::move(data);
-    }
+    for (Attribute& a : mesh.wedge_attributes) a = gather(a, kept);
     mesh.wedge_vertex = std::move(wedge_vertex);
     for (Index& w : mesh.corners) w = to[w];
     // Wedges of a vertex need not be in vertex order; with none but positions they can be.

@@ -25,7 +25,7 @@ std::vector<Point> vertex_points(const Attribute& position) {
 // As record() stores them and a decoder gets them back.
 std::vector<double> stored_placements(const Attribute& position,
                                       const std::vector<double>& placements) {
-  Attribute stored{position.semantic, position.type, position.count, position.normalized, {}};
+  Attribute stored = position.format();
   stored.data.resize(stored.element_bytes());
   const std::size_t axes = std::min<std::size_t>(3, position.count);
   std::vector<double> out(placements.size(), 0);

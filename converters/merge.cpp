@@ -34,8 +34,7 @@ Model merge_meshes(const Model& model, std::vector<std::string>& notes) {
     for (const Attribute& a : m.wedge_attributes) {
       const bool everywhere =
           std::ranges::all_of(model.meshes, [&](const Mesh& other) { return same_in(other, a); });
-      if (everywhere && !same_in(all, a))
-        all.wedge_attributes.push_back({a.semantic, a.type, a.count, a.normalized, {}});
+      if (everywhere && !same_in(all, a)) all.wedge_attributes.push_back(a.format());
       const std::string note = a.semantic + ": not in all meshes in the same format";
       if (!everywhere && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
     }

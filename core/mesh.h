@@ -44,6 +44,8 @@ struct Attribute {
   ByteView element(std::size_t i) const {
     return ByteView(data).subspan(i * element_bytes(), element_bytes());
   }
+  /// The same without data.
+  Attribute format() const { return {semantic, type, count, normalized, {}}; }
   /// Same semantic, type, count and normalization; data aside.
   bool same_format(const Attribute& other) const;
   friend bool operator==(const Attribute&, const Attribute&) = default;

@@ -12,19 +12,10 @@ namespace {
 constexpr Index kLeafParts = 4;
 constexpr std::size_t kMaxDepth = 64;  // halving 2^32 parts takes 32
 
-Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Vec3 operator*(const Vec3& a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double axis_of(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // To the segment from the origin along `edge`.
-double to_segment(const Vec3& p, const Vec3& edge, double edge_squared) {
+double to_segment(const Point& p, const Point& edge, double edge_squared) {
   const double t = edge_squared > 0 ? std::clamp(dot(p, edge) / edge_squared, 0.0, 1.0) : 0;
-  const Vec3 d = p - edge * t;
+  const Point d = p - edge * t;
   return dot(d, d);
 }
 
@@ -40,17 +31,17 @@ float above(double x) {
 Bvh::Bvh(const Surface& surface) {
   const auto at = [&](Index v) {
     const auto p = surface.positions.subspan(std::size_t{3} * v, 3);
-    return Vec3{p[0], p[1], p[2]};
+    return Point{p[0], p[1], p[2]};
   };
   std::vector<Part> parts;
-  const auto add = [&](const Vec3& o, const Vec3& a, const Vec3& b) {
+  const auto add = [&](const Point& o, const Point& a, const Point& b) {
     if (!is_finite(o) || !is_finite(a) || !is_finite(b)) return;
-    const Vec3 u = a - o, v = b - o;
+    const Point u = a - o, v = b - o;
     parts.push_back({o, u, v, dot(u, u), dot(u, v), dot(v, v)});
   };
   if (surface.triangles.empty()) {
     for (std::size_t v = 0; 3 * v < surface.positions.size(); ++v) {
-      const Vec3 p = at(static_cast<Index>(v));
+      const Point p = at(static_cast<Index>(v));
       add(p, p, p);
     }
   } else {
@@ -60,7 +51,7 @@ Bvh::Bvh(const Surface& surface) {
   }
   if (parts.empty()) return;
   const Index count = static_cast<Index>(parts.size());
-  std::vector<Vec3> centres(count);
+  std::vector<Point> centres(count);
   for (Index i = 0; i < count; ++i)
     centres[i] = parts[i].origin + (parts[i].u + parts[i].v) * (1 / 3.0);
   std::vector<Index> order(count);
@@ -71,25 +62,25 @@ Bvh::Bvh(const Surface& surface) {
   build(0, 0, count, centres, order, parts);
 }
 
-void Bvh::build(Index node, Index first, Index count, std::vector<Vec3>& centres,
+void Bvh::build(Index node, Index first, Index count, std::vector<Point>& centres,
                 std::vector<Index>& order, const std::vector<Part>& parts) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   double low[3] = {kFar, kFar, kFar}, high[3] = {-kFar, -kFar, -kFar};
   double centre_low[3] = {kFar, kFar, kFar}, centre_high[3] = {-kFar, -kFar, -kFar};
   for (Index i = first; i < first + count; ++i) {
     const Part& part = parts[order[i]];
-    const Vec3 corners[3] = {part.origin, part.origin + part.u, part.origin + part.v};
-    for (int k = 0; k < 3; ++k) {
-      for (const Vec3& c : corners) {
-        low[k] = std::min(low[k], axis_of(c, k));
-        high[k] = std::max(high[k], axis_of(c, k));
+    const Point corners[3] = {part.origin, part.origin + part.u, part.origin + part.v};
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const Point& c : corners) {
+        low[k] = std::min(low[k], c[k]);
+        high[k] = std::max(high[k], c[k]);
       }
-      const double centre = axis_of(centres[order[i]], k);
+      const double centre = centres[order[i]][k];
       centre_low[k] = std::min(centre_low[k], centre);
       centre_high[k] = std::max(centre_high[k], centre);
     }
   }
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
     nodes_[node].low[k] = below(low[k]);
     nodes_[node].high[k] = above(high[k]);
   }
@@ -99,13 +90,13 @@ void Bvh::build(Index node, Index first, Index count, std::vector<Vec3>& centres
     for (Index i = first; i < first + count; ++i) parts_.push_back(parts[order[i]]);
     return;
   }
-  int axis = 0;
-  for (int k = 1; k < 3; ++k)
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
     if (centre_high[k] - centre_low[k] > centre_high[axis] - centre_low[axis]) axis = k;
   const Index half = count / 2;
   const auto begin = order.begin() + first;
   std::nth_element(begin, begin + half, begin + count, [&](Index a, Index b) {
-    const double x = axis_of(centres[a], axis), y = axis_of(centres[b], axis);
+    const double x = centres[a][axis], y = centres[b][axis];
     return x != y ? x < y : a < b;
   });
   const Index children = static_cast<Index>(nodes_.size());
@@ -116,31 +107,31 @@ void Bvh::build(Index node, Index first, Index count, std::vector<Vec3>& centres
   build(children + 1, first + half, count - half, centres, order, parts);
 }
 
-double Bvh::squared_distance(const Part& part, const Vec3& point) {
-  const Vec3 p = point - part.origin;
+double Bvh::squared_distance(const Part& part, const Point& point) {
+  const Point p = point - part.origin;
   const double pu = dot(p, part.u), pv = dot(p, part.v);
   const double determinant = part.uu * part.vv - part.uv * part.uv;
   const double s = part.vv * pu - part.uv * pv, t = part.uu * pv - part.uv * pu;
   if (determinant > 0 && s >= 0 && t >= 0 && s + t <= determinant) {
-    const Vec3 d = p - part.u * (s / determinant) - part.v * (t / determinant);
+    const Point d = p - part.u * (s / determinant) - part.v * (t / determinant);
     return dot(d, d);
   }
-  const Vec3 third = part.v - part.u;
+  const Point third = part.v - part.u;
   return std::min({to_segment(p, part.u, part.uu), to_segment(p, part.v, part.vv),
                    to_segment(p - part.u, third, dot(third, third))});
 }
 
-double Bvh::squared_distance(const Node& node, const Vec3& point) {
+double Bvh::squared_distance(const Node& node, const Point& point) {
   double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double x = axis_of(point, k);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = point[k];
     const double d = std::max({double{node.low[k]} - x, x - double{node.high[k]}, 0.0});
     sum += d * d;
   }
   return sum;
 }
 
-double Bvh::squared_distance(const Vec3& point, Index& hint) const {
+double Bvh::squared_distance(const Point& point, Index& hint) const {
   hint = std::min(hint, static_cast<Index>(parts_.size() - 1));
   double best = squared_distance(parts_[hint], point);
   std::pair<double, Index> stack[kMaxDepth];  // box distance, node

@@ -4,12 +4,9 @@
 #include <vector>
 
 #include "codecs/measure/measure.h"
+#include "core/point.h"
 
 namespace pstrips::inline codecs {
-
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-};
 
 /// A tree of bounding boxes over the parts of a surface, for nearest-point questions.
 class Bvh {
@@ -21,11 +18,11 @@ class Bvh {
 
   /// Squared distance from `point` to the surface. `hint` is the part where the search starts, and
   /// becomes the nearest one: pass the answer for a point nearby. Precondition: not empty().
-  double squared_distance(const Vec3& point, Index& hint) const;
+  double squared_distance(const Point& point, Index& hint) const;
 
  private:
   struct Part {  // a triangle as a corner and two edges; a point when they are zero
-    Vec3 origin, u, v;
+    Point origin, u, v;
     double uu, uv, vv;
   };
   struct Node {
@@ -34,10 +31,10 @@ class Bvh {
     Index count;
   };
 
-  void build(Index node, Index first, Index count, std::vector<Vec3>& centres,
+  void build(Index node, Index first, Index count, std::vector<Point>& centres,
              std::vector<Index>& order, const std::vector<Part>& parts);
-  static double squared_distance(const Part& part, const Vec3& point);
-  static double squared_distance(const Node& node, const Vec3& point);
+  static double squared_distance(const Part& part, const Point& point);
+  static double squared_distance(const Node& node, const Point& point);
 
   std::vector<Part> parts_;
   std::vector<Node> nodes_;

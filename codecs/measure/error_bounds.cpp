@@ -21,14 +21,8 @@ namespace {
 
 using Plane = std::array<double, 2>;
 
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator*(const Point& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
 float rounded_up(double x) { return static_cast<float>(x * (1 + 0x1p-22)); }
 double turn(const Plane& a, const Plane& b) { return a[0] * b[1] - a[1] * b[0]; }
-bool is_finite(const Point& a) {
-  return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
-}
 
 // Directions across a normal: what is counter-clockwise around it is so in the plane.
 struct PlaneAxes {

@@ -95,16 +95,16 @@ bool FanMap::displacement_at_centre(std::size_t triangle, Point& out) const {
 }
 
 // Where the edge from corner 0 to another one crosses an edge at the centre.
-bool FanMap::crossing(std::size_t diagonal, std::size_t spoke, Point& out) const {
-  const Plane &o = rim[0].plane, &to = rim[diagonal].plane, &end = rim[spoke].plane;
+bool FanMap::crossing(std::size_t diagonal, std::size_t corner, Point& out) const {
+  const Plane &o = rim[0].plane, &to = rim[diagonal].plane, &end = rim[corner].plane;
   const double along[2] = {to[0] - o[0], to[1] - o[1]};
   const double from_centre[2] = {end[0] - centre_plane[0], end[1] - centre_plane[1]};
-  const double gap[2] = {centre_plane[0] - o[0], centre_plane[1] - o[1]};
+  const double offset[2] = {centre_plane[0] - o[0], centre_plane[1] - o[1]};
   const double turn = along[0] * from_centre[1] - along[1] * from_centre[0];
-  const double t = (along[1] * gap[0] - along[0] * gap[1]) / turn;
-  const double u = (gap[0] * from_centre[1] - gap[1] * from_centre[0]) / turn;
+  const double t = (along[1] * offset[0] - along[0] * offset[1]) / turn;
+  const double u = (offset[0] * from_centre[1] - offset[1] * from_centre[0]) / turn;
   if (!std::isfinite(t) || !std::isfinite(u)) return false;
-  const Point before = between(centre, rim[spoke].position, std::clamp(t, 0.0, 1.0));
+  const Point before = between(centre, rim[corner].position, std::clamp(t, 0.0, 1.0));
   out = between(target, rim[diagonal].position, std::clamp(u, 0.0, 1.0)) - before;
   return true;
 }

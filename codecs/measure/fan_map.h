@@ -53,7 +53,7 @@ struct FanMap {
   bool is_unfolded() const;
   std::size_t find_triangle_of_centre() const;
   bool displacement_at_centre(std::size_t triangle, Point& out) const;
-  bool crossing(std::size_t diagonal, std::size_t spoke, Point& out) const;
+  bool crossing(std::size_t diagonal, std::size_t corner, Point& out) const;
   bool cover_side(const Side& side, std::size_t last, const Point& at_centre);
   void cover(std::size_t to, std::size_t from, std::span<const Point> steps);
 

@@ -49,31 +49,29 @@ class Sampler {
   }
 
  private:
-  Vec3 at(Index v) const {
+  Point at(Index v) const {
     const auto p = surface_.positions.subspan(std::size_t{3} * v, 3);
     return {p[0], p[1], p[2]};
   }
 
   double area(std::size_t i) const {
-    const Vec3 a = at(surface_.triangles[i]), b = at(surface_.triangles[i + 1]),
-               c = at(surface_.triangles[i + 2]);
-    const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-    const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-    const double area = std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+    const Point a = at(surface_.triangles[i]), b = at(surface_.triangles[i + 1]),
+                c = at(surface_.triangles[i + 2]);
+    const Point normal = cross(b - a, c - a);
+    const double area = std::hypot(normal[0], normal[1], normal[2]) / 2;
     return std::isfinite(area) ? area : 0;
   }
 
-  Vec3 inside(std::size_t i, std::uint64_t n) const {
+  Point inside(std::size_t i, std::uint64_t n) const {
     double s = spread(n, kStepU), t = spread(n, kStepV);
     if (s + t > 1) s = 1 - s, t = 1 - t;
-    const Vec3 a = at(surface_.triangles[i]), b = at(surface_.triangles[i + 1]),
-               c = at(surface_.triangles[i + 2]);
-    return {a.x + (b.x - a.x) * s + (c.x - a.x) * t, a.y + (b.y - a.y) * s + (c.y - a.y) * t,
-            a.z + (b.z - a.z) * s + (c.z - a.z) * t};
+    const Point a = at(surface_.triangles[i]), b = at(surface_.triangles[i + 1]),
+                c = at(surface_.triangles[i + 2]);
+    return a + (b - a) * s + (c - a) * t;
   }
 
-  void take(const Vec3& p, double weight) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return;
+  void take(const Point& p, double weight) {
+    if (!is_finite(p)) return;
     const double d = target_.squared_distance(p, hint_);
     moments_.maximum = std::max(moments_.maximum, d);
     moments_.sum += d * weight;

@@ -89,8 +89,8 @@ void PatchMap::cut(const Triangle& part, const std::vector<Patch>& others) {
   const Patch* host = &others.front();
   double least = kFar;
   for (const Patch& other : others) {
-    const Point gap = nearest_in(other.corner, centre) - centre;
-    if (dot(gap, gap) < least) least = dot(gap, gap), host = &other;
+    const Point offset = nearest_in(other.corner, centre) - centre;
+    if (dot(offset, offset) < least) least = dot(offset, offset), host = &other;
   }
   const Triangle& h = host->corner;
   const Point normal = cross(h[1] - h[0], h[2] - h[0]);

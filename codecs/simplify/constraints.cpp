@@ -143,7 +143,7 @@ bool CollapseConstraints::flips(const Star& star, Index p, Vec3f shift) const {
       const IncidentCorner& incident = star.corners[i];
       if (suspect[i % 4] == 0 || incident.next == p || incident.previous == p) continue;
       if (turns[i % 4] != 0 ||
-          face_flips(group.next.lane(i % 4), group.previous.lane(i % 4), shift))
+          face_flips(lane(group.next, i % 4), lane(group.previous, i % 4), shift))
         return true;
     }
   }

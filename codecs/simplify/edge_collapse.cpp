@@ -275,7 +275,7 @@ void EdgePricer::price_plain(const Star& star, const Index (&at)[4]) {
   const Float4 cost = error + kLengthShare * weight * dot(o, o);
   for (std::size_t i = 0; i < 4; ++i) {
     StarEdge& edge = star.edges[at[i]];
-    edge.place = place.lane(i);
+    edge.place = lane(place, i);
     edge.error = error[i];
     edge.cost = cost[i] < kInfiniteCost ? cost[i] : kInfiniteCost;
     apply_limit(star, edge, 0);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -28,20 +29,10 @@ inline Float4 load4(const void* four_floats) {
 inline bool any4(Int4 mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
 
 /// Four vectors.
-struct Vec3x4 {
-  Float4 x = {}, y = {}, z = {};
-
-  Vec3f lane(std::size_t i) const { return {x[i], y[i], z[i]}; }
-};
+using Vec3x4 = Vec3<Float4>;
 inline Vec3x4 operator-(const Vec3x4& a, Vec3f b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Float4 dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Float4 dot(const Vec3x4& a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline Vec3f lane(const Vec3x4& v, std::size_t i) { return {v.x[i], v.y[i], v.z[i]}; }
 
 /// Turns rows into columns: lane i of the k-th result is lane k of row i.
 inline void transpose4(Float4& a, Float4& b, Float4& c, Float4& d) {

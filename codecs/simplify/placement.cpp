@@ -16,15 +16,6 @@ using Double2 = double __attribute__((vector_size(16)));
 
 // What follows is for T a double or several side by side.
 template <class T>
-struct Vec3 {
-  T x, y, z;
-};
-template <class T>
-T dot(const Vec3<T>& a, const Vec3<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class T>
 struct Matrix {
   T xx, yy, zz, xy, xz, yz;
 };
@@ -103,11 +94,11 @@ Vec3x4 best_place(const EdgeSums& s) {
     const Vec3<Double2> x = least(matrix, half_of(s.b, half), half_of(s.area, half),
                                   half_of(s.volume, half), half_of(s.offset, half), near);
     for (std::size_t i = 0; i < 2; ++i) {
-      const std::size_t lane = 2 * half + i;
+      const std::size_t at = 2 * half + i;
       const Vec3f p = near[i] ? Vec3f{static_cast<float>(x.x[i]), static_cast<float>(x.y[i]),
                                       static_cast<float>(x.z[i])}
-                              : middle_or_end(s.quadric(lane), s.offset.lane(lane));
-      place.x[lane] = p.x, place.y[lane] = p.y, place.z[lane] = p.z;
+                              : middle_or_end(s.quadric(at), lane(s.offset, at));
+      place.x[at] = p.x, place.y[at] = p.y, place.z[at] = p.z;
     }
   }
   return place;
@@ -128,7 +119,7 @@ Float4 EdgeSums::at(const Vec3x4& p) const {
 }
 
 Quadric EdgeSums::quadric(std::size_t i) const {
-  return {xx[i], yy[i], zz[i], xy[i], xz[i], yz[i], b.lane(i), 0};
+  return {xx[i], yy[i], zz[i], xy[i], xz[i], yz[i], lane(b, i), 0};
 }
 
 }  // namespace pstrips::inline codecs

@@ -1,18 +1,10 @@
 #pragma once
 
+#include "core/vec3.h"
+
 namespace pstrips::inline codecs {
 
-struct Vec3f {
-  float x = 0, y = 0, z = 0;
-};
-
-inline Vec3f operator+(Vec3f a, Vec3f b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3f operator-(Vec3f a, Vec3f b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3f operator*(Vec3f a, float s) { return {a.x * s, a.y * s, a.z * s}; }
-inline float dot(Vec3f a, Vec3f b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec3f cross(Vec3f a, Vec3f b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+using Vec3f = Vec3<float>;
 
 /// Sum of weighted squared distances to planes, x'Ax + 2b'x, with x relative to the vertex that
 /// owns it. [Garland97 §3.4] The constant term is kept by the owner: it is the error where the

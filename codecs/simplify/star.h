@@ -73,7 +73,7 @@ struct Star {
         best = &edge;
     return best;
   }
-  Vec3f normal(Index corner) const { return corner_groups[corner / 4].normal.lane(corner % 4); }
+  Vec3f normal(Index corner) const { return lane(corner_groups[corner / 4].normal, corner % 4); }
 };
 
 }  // namespace pstrips::inline codecs

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "codecs/stripify/path_index.h"
+#include "core/group_by.h"
 
 namespace pstrips::inline codecs {
 namespace {
@@ -173,13 +174,8 @@ std::vector<std::uint16_t> edge_costs(const DualGraph& graph, std::span<const do
 
 // In edges, of each wedge from the lowest one that triangles join it to.
 std::vector<Index> wedge_distances(const StripInput& input) {
-  const Index corner_count = static_cast<Index>(input.triangles.size());
-  std::vector<Index> first(std::size_t{input.wedge_count} + 1), corners(corner_count);
-  for (const Index w : input.triangles) ++first[w];
-  Index sum = 0;
-  for (Index& count : first) sum = count += sum;
-  for (Index c = corner_count; c-- > 0;) corners[--first[input.triangles[c]]] = c;
-
+  const Grouped<Index> corners_at = group_by(input.wedge_count, input.triangles.size(),
+                                             [&](Index c) { return input.triangles[c]; });
   std::vector<Index> distance(input.wedge_count, kNone), queue;
   for (Index start = 0; start < input.wedge_count; ++start) {
     if (distance[start] != kNone) continue;
@@ -187,8 +183,8 @@ std::vector<Index> wedge_distances(const StripInput& input) {
     queue.assign(1, start);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const Index w = queue[i];
-      for (Index k = first[w]; k < first[w + 1]; ++k)
-        for (const Index c : {next_in_triangle(corners[k]), previous_in_triangle(corners[k])}) {
+      for (const Index corner : corners_at[w])
+        for (const Index c : {next_in_triangle(corner), previous_in_triangle(corner)}) {
           Index& reached = distance[input.triangles[c]];
           if (reached != kNone) continue;
           reached = distance[w] + 1;

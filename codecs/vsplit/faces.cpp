@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <numeric>
 
-#include "codecs/vsplit/in_order.h"
 #include "codecs/vsplit/level.h"
+#include "core/gather.h"
+#include "core/group_by.h"
 
 namespace pstrips::inline codecs {
 namespace {
@@ -18,31 +18,26 @@ using Triple = std::array<Index, 3>;
 class TriangleFinder {
  public:
   TriangleFinder(const Mesh& source, const Triangulation& triangles)
-      : first_(std::size_t{source.wedge_count()} + 1, 0),
-        keys_(triangles.face.size()),
-        handed_out_(triangles.face.size(), 0) {
-    std::vector<Key> unsorted(keys_.size());
+      : handed_out_(triangles.face.size(), 0) {
+    std::vector<Key> unsorted(triangles.face.size());
     for (Index t = 0; t < unsorted.size(); ++t) {
       const Index* c = triangles.corners.data() + std::size_t{3} * t;
       unsorted[t] = key({c[0], c[1], c[2]}, source.group_of(triangles.face[t]));
       unsorted[t].triangle = t;
-      ++first_[unsorted[t].wedges[0] + 1];
     }
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<Index> at(first_.begin(), first_.end() - 1);
-    for (const Key& k : unsorted) keys_[at[k.wedges[0]]++] = k;
-    for (std::size_t w = 0; w + 1 < first_.size(); ++w)
-      std::sort(keys_.begin() + first_[w], keys_.begin() + first_[w + 1]);
+    keys_ = group_each<Key>(source.wedge_count(), [&](auto&& visit) {
+      for (const Key& k : unsorted) visit(k.wedges[0], [&] { return k; });
+    });
+    for (std::size_t w = 0; w < keys_.keys(); ++w) std::ranges::sort(keys_[w]);
   }
 
   Index take(const Triple& wedges, Index group) {
     const Key wanted = key(wedges, group);
-    const auto begin = keys_.begin() + first_[wanted.wedges[0]];
-    const auto end = keys_.begin() + first_[wanted.wedges[0] + 1];
-    const auto run = std::lower_bound(begin, end, wanted);
-    assert(run != end && run->wedges == wanted.wedges && run->group == group);
-    const auto found = run + handed_out_[static_cast<std::size_t>(run - keys_.begin())]++;
-    return found->triangle;
+    const std::span<const Key> keys = keys_[wanted.wedges[0]];
+    const auto run = std::ranges::lower_bound(keys, wanted);
+    assert(run != keys.end() && run->wedges == wanted.wedges && run->group == group);
+    const auto place = keys_.first[wanted.wedges[0]] + (run - keys.begin());
+    return run[handed_out_[static_cast<std::size_t>(place)]++].triangle;
   }
 
  private:
@@ -57,8 +52,7 @@ class TriangleFinder {
     return {t, group, 0};
   }
 
-  std::vector<Index> first_;  // keys by least wedge
-  std::vector<Key> keys_;
+  Grouped<Key> keys_;              // by least wedge
   std::vector<Index> handed_out_;  // of the run of equal triangles that starts there
 };
 
@@ -128,7 +122,7 @@ FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, cons
   }
 
   for (const Attribute& a : source.face_attributes)
-    table.attributes.push_back(in_order(a, out.order.face));
+    table.attributes.push_back(gather(a, out.order.face));
   if (!with_order) {
     out.order = {};
     return out;
@@ -153,7 +147,7 @@ Mesh mesh_to_decode(const Mesh& source, const StripMap& strips, const Recording&
   }
   Bytes positions;
   if (mesh.placement == Placement::optimal)
-    positions = in_order(source.position, recording.vertex_from).data;
+    positions = gather(source.position, recording.vertex_from).data;
   return mesh_of(Level::full(mesh, std::move(map), std::move(wedge_vertex), std::move(positions)))
       .value();
 }

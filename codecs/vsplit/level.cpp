@@ -7,7 +7,7 @@ namespace pstrips::inline codecs {
 namespace {
 
 Attribute prefix_of(const Attribute& all, Index elements) {
-  Attribute out{all.semantic, all.type, all.count, all.normalized, {}};
+  Attribute out = all.format();
   const std::size_t bytes = out.element_bytes() * elements;
   out.data.assign(all.data.begin(), all.data.begin() + static_cast<std::ptrdiff_t>(bytes));
   return out;

@@ -10,7 +10,8 @@
 #include <cassert>
 #include <numeric>
 
-#include "codecs/vsplit/in_order.h"
+#include "core/gather.h"
+#include "core/group_by.h"
 #include "core/prefetch.h"
 
 namespace pstrips::inline codecs {
@@ -228,15 +229,12 @@ void Recorder::remove_isolated_vertices() {
   for (const Entry& e : entries_)
     if (e.wedge != kRestart) used[vertex_of(e.wedge)] = true;
   if (std::ranges::find(used, false) == used.end()) return;
-  std::vector<Index> first(std::size_t{mesh_.vertex_count()} + 1, 0), wedges(mesh_.wedge_count());
-  for (Index w = 0; w < mesh_.wedge_count(); ++w) ++first[vertex_of(w) + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<Index> at(first.begin(), first.end() - 1);
-  for (Index w = 0; w < mesh_.wedge_count(); ++w) wedges[at[vertex_of(w)]++] = w;
+  const Grouped<Index> wedges =
+      group_by(mesh_.vertex_count(), mesh_.wedge_count(), [&](Index w) { return vertex_of(w); });
   for (Index v = mesh_.vertex_count(); v-- > 0;) {
     if (used[v]) continue;
     begin_removal(v, kNone);
-    for (Index k = first[v]; k < first[v + 1]; ++k) remove_wedge(wedges[k], kNone);
+    for (const Index wedge : wedges[v]) remove_wedge(wedge, kNone);
     end_removal();
   }
 }
@@ -431,7 +429,7 @@ Recording Recorder::finish(const StripMap& strips) && {
   mesh.groups = mesh_.groups;
   mesh.group_entries = strips.group_entries;
   for (const Attribute& a : mesh_.face_attributes)
-    mesh.face_attribute_formats.push_back({a.semantic, a.type, a.count, a.normalized, {}});
+    mesh.face_attribute_formats.push_back(a.format());
   mesh.vertices = mesh_.vertex_count();
   mesh.wedges = mesh_.wedge_count();
   mesh.single_wedges = mesh_.wedge_vertex.empty() && mesh.reassigned.empty();
@@ -441,9 +439,9 @@ Recording Recorder::finish(const StripMap& strips) && {
   mesh.strips = out_.levels.back().strips;
   write_base(number_all());
   entries_ = {};
-  mesh.position = in_order(moves_kept_ ? moved_ : mesh_.position, out_.vertex_from);
+  mesh.position = gather(moves_kept_ ? moved_ : mesh_.position, out_.vertex_from);
   for (const Attribute& a : mesh_.wedge_attributes)
-    mesh.wedge_attributes.push_back(in_order(a, out_.wedge_from));
+    mesh.wedge_attributes.push_back(gather(a, out_.wedge_from));
   return std::move(out_);
 }
 

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <set>
 
+#include "core/gather.h"
+
 namespace pstrips::inline formats::gltf {
 namespace {
 
@@ -70,15 +72,7 @@ Attribute as_float(const Attribute& in, std::uint8_t count) {
   return out;
 }
 
-Attribute per_wedge(const Mesh& mesh) {
-  const Attribute& in = mesh.position;
-  Attribute out{in.semantic, in.type, in.count, in.normalized, {}};
-  const std::size_t size = in.element_bytes();
-  out.data.resize(mesh.wedge_count() * size);
-  for (std::size_t w = 0; w < mesh.wedge_count(); ++w)
-    std::memcpy(out.data.data() + w * size, in.data.data() + mesh.wedge_vertex[w] * size, size);
-  return out;
-}
+Attribute per_wedge(const Mesh& mesh) { return gather(mesh.position, mesh.wedge_vertex); }
 
 std::string custom_name(std::string name) {
   for (char& c : name)

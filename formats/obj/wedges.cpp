@@ -4,6 +4,8 @@
 #include <cstring>
 #include <numeric>
 
+#include "core/group_by.h"
+
 namespace pstrips::inline formats::obj {
 namespace {
 
@@ -16,9 +18,10 @@ class WedgeBuilder {
 
   WedgeTable build() && {
     if (in_.corner_texcoord.empty() && in_.corner_normal.empty()) return one_wedge_each();
-    group_corners_by_vertex();
+    const Grouped<Index> by_vertex = group_by(in_.vertex_count, in_.corner_vertex.size(),
+                                              [&](Index c) { return in_.corner_vertex[c]; });
     for (Index v = 0; v < in_.vertex_count; ++v) {
-      const auto corners = std::span(by_vertex_).subspan(first_[v], first_[v + 1] - first_[v]);
+      const std::span<const Index> corners = by_vertex[v];
       constexpr std::size_t kFew = 32;
       if (corners.empty())
         add_wedge(v, kNone, kNone, true);
@@ -40,17 +43,6 @@ class WedgeBuilder {
     for (const Index v : in_.corner_vertex) out_.cornerless[v] = false;
     out_.corners.assign(in_.corner_vertex.begin(), in_.corner_vertex.end());
     return std::move(out_);
-  }
-
-  /// A counting sort; the corners of a vertex stay in file order.
-  void group_corners_by_vertex() {
-    first_.assign(std::size_t{in_.vertex_count} + 1, 0);
-    for (const Index v : in_.corner_vertex) ++first_[v];
-    std::size_t end = 0;
-    for (Index& first : first_) first = static_cast<Index>(end += first);
-    by_vertex_.resize(in_.corner_vertex.size());
-    for (std::size_t c = by_vertex_.size(); c-- > 0;)
-      by_vertex_[--first_[in_.corner_vertex[c]]] = static_cast<Index>(c);
   }
 
   void assign_by_scan(Index v, std::span<const Index> corners) {
@@ -118,7 +110,6 @@ class WedgeBuilder {
   }
 
   const CornerTuples& in_;
-  std::vector<Index> first_, by_vertex_;  ///< corners of vertex v: by_vertex_[first_[v]] …
   WedgeTable out_;
 };
 

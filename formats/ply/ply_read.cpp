@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/gather.h"
 #include "formats/ply/ply.h"
 #include "formats/ply/ply_body.h"
 #include "formats/ply/ply_header.h"
@@ -18,14 +19,6 @@ namespace ply {
 namespace {
 
 using Role = Layout::Role;
-
-/// Elements a value, in the order that `rows` names.
-Bytes gathered(const Bytes& values, std::size_t bytes_each, std::span<const Index> rows) {
-  Bytes out(rows.size() * bytes_each);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    std::memcpy(&out[i * bytes_each], &values[rows[i] * bytes_each], bytes_each);
-  return out;
-}
 
 class ModelReader {
  public:
@@ -285,7 +278,7 @@ class ModelReader {
     }
     first_row.resize(vertices);
     if (std::ranges::count(first_row, kNone) != 0) return wrong("wedge_vertex leaves a vertex out");
-    mesh_.position.data = gathered(mesh_.position.data, bytes, first_row);
+    mesh_.position.data = gather(mesh_.position.data, bytes, first_row);
     return true;
   }
 
@@ -308,7 +301,7 @@ class ModelReader {
     if (wedges.wedge_vertex.size() > std::min<std::uint64_t>(limits_.wedges, kMaxCount))
       return refuse(ErrorCode::over_limit, "more wedges than the limit", "face");
     for (Attribute& attribute : mesh_.wedge_attributes)
-      attribute.data = gathered(attribute.data, attribute.element_bytes(), wedges.wedge_vertex);
+      attribute.data = gather(attribute.data, attribute.element_bytes(), wedges.wedge_vertex);
     mesh_.wedge_attributes.push_back({.semantic = "TEXCOORD_0",
                                       .type = property.type,
                                       .count = 2,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/gather.h"
 #include "formats/ply/ply.h"
 #include "formats/ply/ply_body.h"
 #include "formats/ply/ply_description.h"
@@ -10,14 +11,6 @@ namespace ply {
 namespace {
 
 using Role = Layout::Role;
-
-Bytes gathered(const Attribute& attribute, std::span<const Index> rows) {
-  const std::size_t bytes = attribute.element_bytes();
-  Bytes out(rows.size() * bytes);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    std::memcpy(&out[i * bytes], &attribute.data[rows[i] * bytes], bytes);
-  return out;
-}
 
 /// Where the values of all rows come from that a description speaks of.
 class RowSources {
@@ -45,12 +38,12 @@ class RowSources {
   void gather_rows() {
     if (mesh_->wedge_vertex.empty()) return;
     if (description_.shape == Shape::wedges) {
-      row_position_ = gathered(*description_.position, mesh_->wedge_vertex);
+      row_position_ = gather(*description_.position, mesh_->wedge_vertex).data;
       return;
     }
     const std::vector<Index> first = first_wedges(*mesh_);
     for (const Attribute* attribute : description_.wedge_attributes.list)
-      row_attributes_.push_back(gathered(*attribute, first));
+      row_attributes_.push_back(gather(*attribute, first).data);
   }
 
   /// The same for what faces say of their corners.
@@ -60,7 +53,7 @@ class RowSources {
       for (const Index wedge : mesh_->corners) row_corners_.push_back(mesh_->wedge_vertex[wedge]);
     if (description_.shape != Shape::vertices_texcoords) return;
     const auto texcoord = std::ranges::find_if(mesh_->wedge_attributes, is_texcoord);
-    corner_texcoords_ = gathered(*texcoord, mesh_->corners);
+    corner_texcoords_ = gather(*texcoord, mesh_->corners).data;
   }
 
   Source scalar_source(const Attribute& attribute, const Bytes& data, std::size_t component) const {

@@ -12,11 +12,9 @@ namespace {
 
 constexpr float kAmbient = 0.3f;
 
-Point scaled(const Point& p, double s) { return {p[0] * s, p[1] * s, p[2] * s}; }
-Point sum(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Point normalized(const Point& p) {
-  const double length = std::sqrt(dot(p, p));
-  return length > 0 ? scaled(p, 1 / length) : Point{};
+  const double size = length(p);
+  return size > 0 ? p * (1 / size) : Point{};
 }
 
 const Attribute* find_attribute(const Mesh& mesh, std::string_view semantic, std::size_t count) {
@@ -104,13 +102,12 @@ void Renderer::draw(const RenderMesh& mesh, Index t) {
 void Renderer::shade(const RenderMesh& mesh, Pixel& pixel, const Weights& w) const {
   const RenderMesh::Corner* const c = &mesh.corners[std::size_t{3} * pixel.triangle];
   Point face = normalized(cross(c[1].position - c[0].position, c[2].position - c[0].position));
-  Point vertex = normalized(
-      sum(scaled(c[0].normal, w.a), sum(scaled(c[1].normal, w.b), scaled(c[2].normal, w.c))));
+  Point vertex = normalized(c[0].normal * w.a + (c[1].normal * w.b + c[2].normal * w.c));
   if (dot(vertex, vertex) == 0) vertex = face;
   pixel.from_behind = dot(face, camera_.toward) < 0;
   if (pixel.from_behind) {
-    face = scaled(face, -1);
-    vertex = scaled(vertex, -1);
+    face = face * -1;
+    vertex = vertex * -1;
   }
   pixel.face_normal = face;
   pixel.vertex_normal = vertex;
@@ -137,7 +134,7 @@ std::vector<Point> vertex_normals(const Mesh& mesh, const Triangulation& triangl
                         mesh.vertex_of(triangles.corners[i + 1]),
                         mesh.vertex_of(triangles.corners[i + 2])};
     const Point n = cross(at(v[1]) - at(v[0]), at(v[2]) - at(v[0]));
-    for (const Index x : v) out[x] = sum(out[x], n);
+    for (const Index x : v) out[x] = out[x] + n;
   }
   for (Point& n : out) n = normalized(n);
   return out;

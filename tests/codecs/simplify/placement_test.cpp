@@ -73,8 +73,8 @@ TEST(BestPlace, IsTheSameForFourEdgesAtOnce) {
   const Float4 values = sums.at(places);
   for (std::size_t i = 0; i < 4; ++i) {
     SCOPED_TRACE(i);
-    expect_near(places.lane(i), best_place(quadrics[i], volumes[i], offsets[i]), 1e-6f);
-    EXPECT_NEAR(values[i], quadrics[i].at(places.lane(i)), 1e-6f * (1 + std::abs(values[i])));
+    expect_near(lane(places, i), best_place(quadrics[i], volumes[i], offsets[i]), 1e-6f);
+    EXPECT_NEAR(values[i], quadrics[i].at(lane(places, i)), 1e-6f * (1 + std::abs(values[i])));
   }
 }
 
