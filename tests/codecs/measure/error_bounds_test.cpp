@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "codecs/measure/measure.h"
+#include "codecs/simplify/simplify.h"
 #include "tests/support/meshes.h"
 
 namespace pstrips {
