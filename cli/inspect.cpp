@@ -25,34 +25,12 @@ struct Options {
   LimitOptions limits;
 };
 
-// The parts that a report groups the bytes by. [spec/container.md §5]
-struct PartGroup {
-  const char* key;
-  const char* label;
-  std::vector<Part> parts;
-};
-
-const std::array<PartGroup, 8> kPartGroups = {{
-    {"names_and_offsets",
-     "names and offsets",
-     {Part::parents, Part::counts, Part::map_offsets, Part::reassigned}},
-    {"positions", "positions", {Part::positions, Part::parent_positions}},
-    {"wedges", "wedges", {Part::wedges}},
-    {"base", "base", {Part::base_positions, Part::base_wedges, Part::base_map}},
-    {"faces", "faces", {Part::faces}},
-    {"order", "original order", {Part::order}},
-    {"scene", "scene and images", {Part::scene, Part::images, Part::foreign, Part::unknown}},
-    {"container",
-     "container",
-     {Part::container, Part::mesh_header, Part::packet_index, Part::digest}},
-}};
-
 // All there is to report; the fields a broken or plain file does not have stay empty.
 struct Report {
   std::string file, format, profile, strips_encoding;
   std::uint64_t bytes = 0;
   Inspection figures;
-  std::array<std::uint64_t, kPartGroups.size()> part_bytes{};
+  std::array<std::uint64_t, kPartGroups> part_bytes{};
   bool has_parts = false;
   std::optional<MeshStatistics> statistics;  // of a plain model
   std::size_t meshes = 0, materials = 0, images = 0, nodes = 0;
@@ -125,9 +103,7 @@ std::vector<std::uint64_t> add_chunks(Report& report, ByteView bytes, const Limi
   }
   ends.insert(ends.begin(), base_end);
   for (const PartSpan& span : list_parts(list, limits))
-    for (std::size_t g = 0; g < kPartGroups.size(); ++g)
-      if (std::ranges::find(kPartGroups[g].parts, span.part) != kPartGroups[g].parts.end())
-        report.part_bytes[g] += span.bytes;
+    report.part_bytes[static_cast<std::size_t>(group_of(span.part))] += span.bytes;
   report.has_parts = true;
   return ends;
 }
@@ -191,9 +167,9 @@ void print_text(std::ostream& out, const Report& r) {
   if (r.has_parts) {
     out << "\n";
     Table table({"part", "bytes", "bits per vertex", "% of file"});
-    for (std::size_t g = 0; g < kPartGroups.size(); ++g)
+    for (std::size_t g = 0; g < kPartGroups; ++g)
       table.add(
-          {kPartGroups[g].label, grouped(r.part_bytes[g]),
+          {std::string(name_of(static_cast<PartGroup>(g)).label), grouped(r.part_bytes[g]),
            fmt::format("{:.2f}", r.bits_per_vertex(r.part_bytes[g])),
            fmt::format("{:.1f}", 100.0 * static_cast<double>(r.part_bytes[g]) /
                                      static_cast<double>(std::max<std::uint64_t>(r.bytes, 1)))});
@@ -261,9 +237,9 @@ void print_json(std::ostream& out, const Report& r) {
   json["bits_per_vertex"] = r.bits_per_vertex(r.bytes);
   json["parts"] = Json::object();
   if (r.has_parts)
-    for (std::size_t g = 0; g < kPartGroups.size(); ++g)
-      json["parts"][kPartGroups[g].key] = {{"bytes", r.part_bytes[g]},
-                                           {"bits_per_vertex", r.bits_per_vertex(r.part_bytes[g])}};
+    for (std::size_t g = 0; g < kPartGroups; ++g)
+      json["parts"][std::string(name_of(static_cast<PartGroup>(g)).key)] = {
+          {"bytes", r.part_bytes[g]}, {"bits_per_vertex", r.bits_per_vertex(r.part_bytes[g])}};
   json["packets"] = Json::array();
   for (const InspectedLevel& l : f.levels)
     json["packets"].push_back({{"packet", l.packet},

@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "codecs/stripify/stripify.h"
+#include "core/profile.h"
 
 namespace pstrips::cli {
 
@@ -129,9 +130,11 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
   stripping.add_to(app);
   std::vector<std::string> names;
   for (const NamedStripifier& s : stripifiers()) names.emplace_back(s.name);
+  std::vector<std::string> profiles;
+  for (const ProfileName& p : kProfiles) profiles.emplace_back(p.name);
   constexpr const char* kGroup = "Progressive output";
   app.add_option("--profile", profile, "Profile of the file")
-      ->check(CLI::IsMember({"plain"}))
+      ->check(CLI::IsMember(profiles))
       ->capture_default_str()
       ->group(kGroup);
   app.add_option("--strips", strips, "Index-map encoding: wedges only, or offset differences too")

@@ -317,8 +317,12 @@ class Encoder {
       out.bases.push_back(encoded[m].base);
       out.meshes.push_back(std::move(encoded[m].mesh));
     }
-    if (const Result<void> ok = check_scene(out); !ok)
-      return fail(ErrorCode::bad_argument, ok.error().message, kNoOffset, ok.error().path);
+    FirstFault faults;
+    if (!check_scene(out, faults)) {
+      Error error = error_of(*faults.first());
+      error.code = ErrorCode::bad_argument;
+      return tl::unexpected<Error>(std::move(error));
+    }
     // The mesh whose error is largest where it stands gets the next packet.
     const std::vector<double> scale = instance_scales(out.scene, encoded.size());
     struct Next {

@@ -16,7 +16,7 @@ void noticed(const Document& doc, Findings& out) {
 using Check = void(const Document&, Findings&);
 
 // checks_header.cpp: what PSHD, MESH and PIDX declare.
-Check totals_summed, base_end, file_bytes, decoder_memory_computed, level_computed;
+Check totals_summed, base_end, file_bytes, decoder_memory_computed, conformance_computed;
 Check counts_representable, single_wedges_hold, semantics_differ, few_attributes, has_group,
     group_materials_exist, group_entries_summed, counts_of_base, vsplits_fill, strips_fit_map,
     mesh_wedges_come, packets_hold_vsplits, packets_not_empty;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "formats/pstrip/payload/predicates.h"
 #include "validators/checks.h"
 
 namespace pstrips::inline validators::checks {
@@ -19,10 +20,11 @@ Where in_map(Index mesh, std::size_t entry) {
 
 void wedge_vertices_exist(const Document& doc, Findings& out) {
   for_each_base(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    for (std::size_t w = 0; w < mesh.base_wedge_vertex.size() && !out.full(); ++w)
-      if (mesh.base_wedge_vertex[w] >= mesh.base_vertices)
-        out.add({.field = Field::base_wedge_vertex, .mesh = m, .element = w},
-                std::to_string(mesh.base_wedge_vertex[w]));
+    all_below(mesh.base_wedge_vertex, mesh.base_vertices, [&](std::size_t w) {
+      out.add({.field = Field::base_wedge_vertex, .mesh = m, .element = w},
+              std::to_string(mesh.base_wedge_vertex[w]));
+      return !out.full();
+    });
   });
 }
 

@@ -2,12 +2,15 @@
 #include <cmath>
 #include <set>
 
+#include "formats/pstrip/payload/predicates.h"
 #include "validators/checks.h"
 
 namespace pstrips::inline validators::checks {
 namespace {
 
+using layout::kTotals;
 using layout::MeshCounts;
+using layout::Total;
 
 std::string versus(std::uint64_t says, std::uint64_t is) {
   return "says " + std::to_string(says) + ", is " + std::to_string(is);
@@ -22,22 +25,6 @@ Where in_row(std::size_t row) { return {.field = Field::row, .element = row}; }
 /// All of the file's declarations are there.
 bool has_header(const Document& doc) { return doc.header && !doc.ended_early; }
 
-struct Total {
-  const char* name;
-  std::uint64_t FileHeader::*total;
-  Index MeshCounts::*count;
-  std::uint64_t byte;  ///< in the payload of PSHD
-};
-constexpr Total kTotals[] = {
-    {"vertices", &FileHeader::vertices, &MeshCounts::vertices, 16},
-    {"wedges", &FileHeader::wedges, &MeshCounts::wedges, 24},
-    {"triangles", &FileHeader::triangles, &MeshCounts::triangles, 32},
-    {"strips", &FileHeader::strips, &MeshCounts::strips, 40},
-    {"map_entries", &FileHeader::map_entries, &MeshCounts::map_entries, 48},
-    {"faces", &FileHeader::faces, &MeshCounts::faces, 56},
-    {"vsplits", &FileHeader::vsplits, &MeshCounts::vsplits, 72},
-};
-
 /// Every chunk that a row of PIDX stands for, with the row; as far as both are there.
 template <class Visit>
 void for_each_row(const Document& doc, Visit&& visit) {
@@ -45,7 +32,7 @@ void for_each_row(const Document& doc, Visit&& visit) {
   std::vector<std::size_t> used(doc.mesh_chunks.size());
   const auto chunk = [&](Index mesh, bool base) -> const Chunk& {
     const MeshChunks& chunks = doc.mesh_chunks[mesh];
-    return doc.frame.chunks[base ? chunks.base : chunks.packets[used[mesh]++]];
+    return doc.frame.chunks[base ? chunks.find(kBaseChunk) : chunks.packets[used[mesh]++]];
   };
   for (std::size_t i = 0; i < doc.index.size(); ++i) {
     if (i < bases)
@@ -86,8 +73,7 @@ void reached(const Document& doc, Findings& out, Index Packet::*says, Index Show
 void totals_summed(const Document& doc, Findings& out) {
   if (!has_header(doc)) return;
   for (const Total& total : kTotals) {
-    std::uint64_t sum = 0;
-    for (const MeshCounts& c : doc.declared) sum += c.*total.count;
+    const std::uint64_t sum = layout::sum_of(total, doc.declared);
     const std::uint64_t says = *doc.header.*total.total;
     if (says != sum) out.add(in_header(total.byte), total.name + (" " + versus(says, sum)));
   }
@@ -131,10 +117,11 @@ void decoder_memory_computed(const Document& doc, Findings& out) {
     out.add(in_header(64), versus(doc.header->decoder_memory, needed));
 }
 
-void level_computed(const Document& doc, Findings& out) {
+void conformance_computed(const Document& doc, Findings& out) {
   if (!doc.header) return;
   const std::uint8_t level = conformance_level(*doc.header);
-  if (doc.header->level != level) out.add(in_header(5), versus(doc.header->level, level));
+  if (doc.header->conformance != level)
+    out.add(in_header(5), versus(doc.header->conformance, level));
 }
 
 // ---- MESH ----
@@ -174,13 +161,12 @@ void strips_fit_map(const Document& doc, Findings& out) {
 }
 
 void few_attributes(const Document& doc, Findings& out) {
-  constexpr std::size_t kMax = 1024;
   for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
     const ProgressiveMesh& mesh = doc.strips.meshes[m];
     const Where where{.field = Field::mesh, .mesh = m};
-    if (mesh.wedge_attributes.size() > kMax)
+    if (mesh.wedge_attributes.size() > kMaxAttributes)
       out.add(where, std::to_string(mesh.wedge_attributes.size()));
-    if (mesh.face_attribute_formats.size() > kMax)
+    if (mesh.face_attribute_formats.size() > kMaxAttributes)
       out.add(where, std::to_string(mesh.face_attribute_formats.size()));
   }
 }
@@ -215,8 +201,7 @@ void has_group(const Document& doc, Findings& out) {
 
 void group_entries_summed(const Document& doc, Findings& out) {
   for (std::size_t m = 0; m < doc.declared.size(); ++m) {
-    std::uint64_t sum = 0;
-    for (const Index n : doc.strips.meshes[m].group_entries) sum += n;
+    const std::uint64_t sum = sum_of_group_entries(doc.strips.meshes[m]);
     if (sum != doc.declared[m].map_entries)
       out.add(count_of(m, 4), versus(doc.declared[m].map_entries, sum));
   }

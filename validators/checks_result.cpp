@@ -3,6 +3,7 @@
 #include "codecs/vsplit/level.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/digest.h"
+#include "formats/pstrip/payload/predicates.h"
 #include "validators/checks.h"
 
 namespace pstrips::inline validators::checks {
@@ -21,27 +22,20 @@ void for_each_table(const Document& doc, Visit&& visit) {
 }
 
 void below(std::span<const Index> list, std::uint64_t end, Where where, Findings& out) {
-  for (std::size_t i = 0; i < list.size() && !out.full(); ++i) {
+  all_below(list, end, [&](std::size_t i) {
     where.element = i;
-    if (list[i] >= end) out.add(where, std::to_string(list[i]));
-  }
+    out.add(where, std::to_string(list[i]));
+    return !out.full();
+  });
 }
 
-/// first partitions `size` items into runs of at least `least`.
-void partition(std::span<const Index> first, std::size_t size, Index least, Where where,
-               Findings& out) {
-  if (first.empty()) {
-    if (size > 0) out.add(where, "has no runs");
-    return;
-  }
-  for (std::size_t i = 0; i < first.size() && !out.full(); ++i) {
+/// first partitions `size` items into runs.
+void partition(std::span<const Index> first, std::size_t size, Where where, Findings& out) {
+  are_bounds(first, size, [&](std::size_t i) {
     where.element = i;
-    const Index before = i == 0 ? 0 : first[i - 1];
-    const bool starts = i > 0 || first[0] == 0;
-    const bool ends = i + 1 < first.size() || first[i] == size;
-    if (!starts || !ends || first[i] < before || (i > 0 && first[i] - before < least))
-      out.add(where, std::to_string(first[i]));
-  }
+    out.add(where, first.empty() ? "has no runs" : std::to_string(first[i]));
+    return !out.full();
+  });
 }
 
 void permutation(std::span<const Index> list, std::size_t size, Where where, Findings& out) {
@@ -49,16 +43,11 @@ void permutation(std::span<const Index> list, std::size_t size, Where where, Fin
     out.add(where, std::to_string(list.size()) + " entries for " + std::to_string(size));
     return;
   }
-  std::vector<bool> used(size);
-  for (std::size_t i = 0; i < size && !out.full(); ++i) {
+  is_permutation(list, size, [&](std::size_t i) {
     where.element = i;
-    if (list[i] >= size)
-      out.add(where, std::to_string(list[i]));
-    else if (used[list[i]])
-      out.add(where, std::to_string(list[i]) + " again");
-    else
-      used[list[i]] = true;
-  }
+    out.add(where, std::to_string(list[i]) + (list[i] < size ? " again" : ""));
+    return !out.full();
+  });
 }
 
 bool has_order(const ProgressiveMesh& mesh) { return mesh.order != OriginalOrder{}; }
@@ -79,7 +68,8 @@ std::vector<Index> groups_of_triangles(const ProgressiveMesh& mesh, const Replay
 
 /// The table can be followed: what decoding the mesh stands on.
 bool is_sound(const ProgressiveStrips& strips, Index mesh) {
-  return strips.meshes[mesh].faces.empty() || check_faces(strips, mesh).has_value();
+  FirstFault ignored;
+  return strips.meshes[mesh].faces.empty() || check_faces(strips, mesh, ignored);
 }
 
 }  // namespace
@@ -103,8 +93,8 @@ void full_counts_reached(const Document& doc, Findings& out) {
 
 void face_bounds(const Document& doc, Findings& out) {
   for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    partition(mesh.faces.first, mesh.faces.corners.size(), 0,
-              {.field = Field::face_first, .mesh = m}, out);
+    partition(mesh.faces.first, mesh.faces.corners.size(), {.field = Field::face_first, .mesh = m},
+              out);
   });
 }
 
@@ -122,7 +112,7 @@ void face_groups_exist(const Document& doc, Findings& out) {
 
 void replaced_bounds(const Document& doc, Findings& out) {
   for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    partition(mesh.faces.replaced_first, mesh.faces.replaced.size(), 0,
+    partition(mesh.faces.replaced_first, mesh.faces.replaced.size(),
               {.field = Field::replaced_first, .mesh = m}, out);
   });
 }
@@ -135,15 +125,11 @@ void replaced_exist(const Document& doc, Findings& out) {
 
 void replaced_once(const Document& doc, Findings& out) {
   for_each_table(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    std::vector<Index> sorted = mesh.faces.replaced;  // may name triangles past the end
-    std::ranges::sort(sorted);
-    const auto twice = std::ranges::adjacent_find(sorted);
-    if (twice == sorted.end()) return;
-    const auto last = std::find(mesh.faces.replaced.rbegin(), mesh.faces.replaced.rend(), *twice);
-    out.add({.field = Field::replaced,
-             .mesh = m,
-             .element = static_cast<std::uint64_t>(mesh.faces.replaced.rend() - last - 1)},
-            std::to_string(*twice));
+    all_differ(mesh.faces.replaced, mesh.triangles, [&](std::size_t i) {
+      out.add({.field = Field::replaced, .mesh = m, .element = i},
+              std::to_string(mesh.faces.replaced[i]));
+      return false;
+    });
   });
 }
 
@@ -175,7 +161,7 @@ void faces_counted(const Document& doc, Findings& out) {
 void faces_needed(const Document& doc, Findings& out) {
   noticed<Fault::faces_empty>(doc, out);
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    const bool there = doc.xml ? !mesh.faces.empty() : doc.mesh_chunks[m].faces != kNone;
+    const bool there = doc.xml ? !mesh.faces.empty() : doc.mesh_chunks[m].find(kFacesChunk) != kNone;
     if (!there && !mesh.face_attribute_formats.empty())
       out.add({.field = Field::mesh, .mesh = m}, "the mesh has face attributes");
   });
@@ -214,10 +200,8 @@ void rotations(const Document& doc, Findings& out) {
               std::to_string(mesh.order.rotation.size()) + " rotations");
     const std::size_t triangles = face_count(mesh) - mesh.faces.count();
     for (std::size_t f = 0; f < mesh.order.rotation.size() && !out.full(); ++f) {
-      Index corners = 3;
-      if (f >= triangles && f - triangles < mesh.faces.count())
-        corners = mesh.faces.first[f - triangles + 1] - mesh.faces.first[f - triangles];
-      if (mesh.order.rotation[f] >= std::max<Index>(corners, 1))
+      const Index corners = corners_of_face(mesh.faces, triangles, f);
+      if (!is_rotation(mesh.order.rotation[f], corners))
         out.add({.field = Field::rotation, .mesh = m, .element = f},
                 std::to_string(mesh.order.rotation[f]) + " of " + std::to_string(corners));
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/limits.h"
 #include "core/progressive_strips.h"
 #include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/container/chunks.h"
 #include "formats/pstrip/payload/layout.h"
 #include "formats/pstrip/xml/xml.h"
@@ -31,10 +33,16 @@ enum class Depth : std::uint8_t {
   replayed,  ///< every level of every mesh
 };
 
-/// The chunks of one mesh, as numbers into ChunkList::chunks; kNone: not there.
+/// The chunks of one mesh, as numbers into ChunkList::chunks.
 struct MeshChunks {
-  Index mesh = kNone, base = kNone, faces = kNone, order = kNone, digest = kNone;
+  std::map<ChunkType, Index> of_type;  ///< those of which a mesh has one
   std::vector<Index> packets;
+
+  /// kNone: not there.
+  Index find(const ChunkType& type) const {
+    const auto found = of_type.find(type);
+    return found == of_type.end() ? kNone : found->second;
+  }
 };
 
 /// A file as the rules look at it: what its bytes say, unjudged, and the faults noticed on the way.

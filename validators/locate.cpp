@@ -2,87 +2,19 @@
 
 #include <algorithm>
 
-#include "formats/pstrip/payload/layout.h"
+#include "formats/pstrip/payload/extras.h"
+#include "formats/pstrip/payload/geometry.h"
 
 namespace pstrips::inline validators {
 namespace {
 
 using namespace layout;
 
-/// The Io of the layout functions that finds where one field or list stands in a payload, by the
-/// address of the object that holds it.
-class LocateIo : public SizeIo {
- public:
-  explicit LocateIo(const void* target) : target_(target) {}
-
-  template <class T>
-  void number(const T& v) {
-    mark(&v);
-    SizeIo::number(v);
-  }
-  template <class E>
-  void choice(const E& v, std::uint8_t values) {
-    mark(&v);
-    SizeIo::choice(v, values);
-  }
-  void string(const std::string& s) {
-    mark(&s);
-    SizeIo::string(s);
-  }
-  template <class T>
-  void run(const std::vector<T>& v, std::size_t first, std::uint64_t n) {
-    mark(&v);
-    SizeIo::run(v, first, n);
-  }
-  void run(const Attribute& a, std::size_t first, std::uint64_t n) {
-    mark(&a);
-    SizeIo::run(a, first, n);
-  }
-  void run(const Bytes& data, std::size_t element, std::size_t first, std::uint64_t n) {
-    mark(&data);
-    SizeIo::run(data, element, first, n);
-  }
-  template <class T>
-  void packed(const std::vector<T>& v, unsigned bits, std::uint64_t n) {
-    mark(&v);
-    if (&v == target_) bits_ = bits;
-    SizeIo::packed(v, bits, n);
-  }
-  template <class S, class T>
-  void column(const std::vector<S>& v, T S::*field, std::size_t first, std::uint64_t n) {
-    if (position_ == kNoOffset) mark(&v);  // the first column stands for the records
-    SizeIo::column(v, field, first, n);
-  }
-
-  /// From the start of the payload; 0 when the target is not in it.
-  std::uint64_t position() const { return position_ == kNoOffset ? 0 : position_; }
-  /// The same of the byte where a number of a packed target begins.
-  std::uint64_t position_in_packed(std::uint64_t element) const {
-    return position() + element * bits_ / 8;
-  }
-
- private:
-  void mark(const void* at) {
-    if (at == target_) position_ = size();
-  }
-  const void* target_;
-  std::uint64_t position_ = kNoOffset;
-  unsigned bits_ = 0;
-};
-
 template <class Fields>
 std::uint64_t position_of(const void* target, Fields&& fields) {
   LocateIo io(target);
   fields(io);
   return io.position();
-}
-
-template <class Head, class Fields>
-Head read_head(const Chunk& chunk, Fields&& fields) {
-  Head head;
-  ReadIo io(chunk.payload, chunk.payload_offset(), 0);
-  fields(io, head);
-  return head;
 }
 
 std::string numbered(const char* what, std::uint64_t i) { return what + std::to_string(i); }
@@ -92,7 +24,7 @@ class Locator {
   Locator(const Document& doc, const Where& where)
       : doc_(doc), where_(where), chunks_(doc.frame.chunks) {}
 
-  Location find() const {
+  Location locate() const {
     switch (where_.field) {
       case Field::file:
         return byte(where_.element);
@@ -175,7 +107,7 @@ class Locator {
     const std::uint64_t i = where_.element;
     switch (where_.field) {
       case Field::mesh:
-        return chunk(at.mesh);
+        return chunk(find(kMeshChunk));
       case Field::position_format:
         return in_header(&mesh.position.semantic, ", position");
       case Field::wedge_format:
@@ -193,7 +125,7 @@ class Locator {
         return in_header(counts[i], ", counts");
       }
       case Field::base:
-        return chunk(at.base);
+        return chunk(find(kBaseChunk));
       case Field::base_wedge_vertex:
         return in_base(&mesh.base_wedge_vertex, ", wedge ");
       case Field::base_map:
@@ -208,29 +140,29 @@ class Locator {
       case Field::map_offset:
         return in_packet(&mesh.map_offsets, i, ", map offset");
       case Field::faces:
-        return chunk(at.faces);
+        return chunk(find(kFacesChunk));
       case Field::face_first:
-        return in_faces(&mesh.faces.first, ", face ");
+        return in_extra(FacesPayload{}, &mesh.faces.first, ", face ");
       case Field::face_corner:
-        return in_faces(&mesh.faces.corners, ", corner ");
+        return in_extra(FacesPayload{}, &mesh.faces.corners, ", corner ");
       case Field::face_group:
-        return in_faces(&mesh.faces.group, ", group of face ");
+        return in_extra(FacesPayload{}, &mesh.faces.group, ", group of face ");
       case Field::replaced_first:
-        return in_faces(&mesh.faces.replaced_first, ", face ");
+        return in_extra(FacesPayload{}, &mesh.faces.replaced_first, ", face ");
       case Field::replaced:
-        return in_faces(&mesh.faces.replaced, ", replaced triangle ");
+        return in_extra(FacesPayload{}, &mesh.faces.replaced, ", replaced triangle ");
       case Field::order:
-        return chunk(at.order);
+        return chunk(find(kOrderChunk));
       case Field::order_vertex:
-        return in_order(&mesh.order.vertex, ", vertex ");
+        return in_extra(OrderPayload{}, &mesh.order.vertex, ", vertex ");
       case Field::order_wedge:
-        return in_order(&mesh.order.wedge, ", wedge ");
+        return in_extra(OrderPayload{}, &mesh.order.wedge, ", wedge ");
       case Field::order_face:
-        return in_order(&mesh.order.face, ", face ");
+        return in_extra(OrderPayload{}, &mesh.order.face, ", face ");
       case Field::rotation:
-        return in_order(&mesh.order.rotation, ", rotation ");
+        return in_extra(OrderPayload{}, &mesh.order.rotation, ", rotation ");
       case Field::digest:
-        return chunk(at.digest);
+        return chunk(find(kDigestChunk));
       default:
         return {};
     }
@@ -240,55 +172,39 @@ class Locator {
     const auto fields = [&](LocateIo& io) {
       mesh_fields(io, doc_.strips.meshes[where_.mesh], doc_.declared[where_.mesh]);
     };
-    return in_payload(doc_.mesh_chunks[where_.mesh].mesh, position_of(target, fields), path);
+    return in_payload(find(kMeshChunk), position_of(target, fields), path);
   }
   Location in_base(const void* list, const char* path) const {
-    const Index number = doc_.mesh_chunks[where_.mesh].base;
-    if (number >= chunks_.size()) return {};
-    const auto head = read_head<BaseHead>(chunks_[number],
-                                          [](ReadIo& io, BaseHead& h) { base_head_fields(io, h); });
-    const auto fields = [&](LocateIo& io) {
-      base_head_fields(io, head);
-      base_array_fields(io, head, doc_.strips.meshes[where_.mesh]);
-    };
-    return in_payload(number, position_of(list, fields) + 4 * where_.element,
-                      numbered(path, where_.element));
+    return in_geometry(find(kBaseChunk), list, where_.element, numbered(path, where_.element));
   }
   Location in_packet(const void* list, std::uint64_t element, const char* path) const {
-    const Index number = doc_.mesh_chunks[where_.mesh].packets[where_.packet];
-    const auto head = read_head<PacketHead>(
-        chunks_[number], [](ReadIo& io, PacketHead& h) { packet_head_fields(io, h); });
-    const auto fields = [&](LocateIo& io) {
-      packet_head_fields(io, head);
-      packet_array_fields(io, head, doc_.strips.meshes[where_.mesh], PacketStart{});
-    };
-    return in_payload(number, position_of(list, fields) + 4 * element,
-                      numbered(", vsplit ", where_.record) + path);
+    return in_geometry(doc_.mesh_chunks[where_.mesh].packets[where_.packet], list, element,
+                       numbered(", vsplit ", where_.record) + path);
   }
-  Location in_faces(const void* list, const char* path) const {
-    const Index number = doc_.mesh_chunks[where_.mesh].faces;
+  Location in_geometry(Index number, const void* list, std::uint64_t element,
+                       const std::string& path) const {
     if (number >= chunks_.size()) return {};
-    const auto head = read_head<FacesHead>(
-        chunks_[number], [](ReadIo& io, FacesHead& h) { faces_head_fields(io, h); });
-    const auto fields = [&](LocateIo& io) {
-      faces_head_fields(io, head);
-      faces_array_fields(io, head, doc_.strips.meshes[where_.mesh].faces, 0);
-    };
-    return in_payload(number, position_of(list, fields) + 4 * where_.element,
-                      numbered(path, where_.element));
-  }
-  Location in_order(const void* list, const char* path) const {
-    const Index number = doc_.mesh_chunks[where_.mesh].order;
-    if (number >= chunks_.size()) return {};
+    const GeometryCodec& codec = codec_of(doc_.strips.profile);
     const ProgressiveMesh& mesh = doc_.strips.meshes[where_.mesh];
-    const auto head = read_head<OrderHead>(
-        chunks_[number], [](ReadIo& io, OrderHead& h) { order_head_fields(io, h); });
+    return in_payload(number, codec.position_of(chunks_[number], mesh, list, element), path);
+  }
+  /// In a chunk of the description Extra. [payload/extras.h]
+  template <class Extra>
+  Location in_extra(Extra extra, const void* list, const char* path) const {
+    const Index number = find(Extra::kType);
+    if (number >= chunks_.size()) return {};
+    FirstFault ignored;
+    ReadIo in(chunks_[number], 0, ignored);
+    typename Extra::Head head;
+    Extra::head_fields(in, head);
     LocateIo io(list);
-    order_head_fields(io, head);
-    order_array_fields(io, head, doc_.declared[where_.mesh], mesh.single_wedges, mesh.order);
-    return in_payload(number, io.position_in_packed(where_.element),
+    extra_fields(io, extra, std::as_const(head), doc_.declared[where_.mesh],
+                 doc_.strips.meshes[where_.mesh]);
+    return in_payload(number, io.position_of_element(where_.element),
                       numbered(path, where_.element));
   }
+  /// The chunk of the type that the mesh has one of.
+  Index find(const ChunkType& type) const { return doc_.mesh_chunks[where_.mesh].find(type); }
 
   const Document& doc_;
   const Where& where_;
@@ -298,7 +214,7 @@ class Locator {
 }  // namespace
 
 Location locate_binary(const Document& doc, const Where& where) {
-  return Locator(doc, where).find();
+  return Locator(doc, where).locate();
 }
 
 }  // namespace pstrips::inline validators

@@ -23,17 +23,10 @@ Location locate_xml(const Document& doc, const Where& where) {
   return {offset_of_line(doc.file, place.line), place.text()};
 }
 
-layout::MeshCounts counts_of(const ProgressiveMesh& mesh, bool complete) {
-  const Index lacking = mesh.vertices - std::min(mesh.vertices, mesh.base_vertices);
-  return {mesh.vertices,
-          mesh.wedges,
-          mesh.triangles,
-          mesh.strips,
-          static_cast<Index>(mesh.base_map.size()),
-          complete ? static_cast<Index>(mesh.vsplits.size()) : lacking,
-          face_count(mesh),
-          mesh.base_vertices,
-          mesh.base_wedges};
+layout::MeshCounts declared_by(const ProgressiveMesh& mesh, bool complete) {
+  layout::MeshCounts counts = layout::counts_of(mesh);
+  if (!complete) counts.vsplits = mesh.vertices - std::min(mesh.vertices, mesh.base_vertices);
+  return counts;
 }
 
 }  // namespace
@@ -54,7 +47,7 @@ Document open_xml(ByteView file, const Limits& limits) {
   doc.strips = std::move(*strips);
   doc.ended_early = !doc.strips.complete;
   for (const ProgressiveMesh& mesh : doc.strips.meshes)
-    doc.declared.push_back(counts_of(mesh, doc.strips.complete));
+    doc.declared.push_back(declared_by(mesh, doc.strips.complete));
   for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
     const ProgressiveMesh& mesh = doc.strips.meshes[m];
     if (mesh.base_wedge_vertex.size() != (mesh.single_wedges ? 0 : mesh.base_wedges)) {

@@ -76,7 +76,7 @@ constexpr Rule kRules[] = {
     {"PS1032", kError, "C-032", Stage::file, "flags is 0.", noticed<Fault::flags_unknown>,
      Verdict::unsupported},
     {"PS1033", kError, "C-033", Stage::model,
-     "level is the smallest conformance level that admits the file.", level_computed},
+     "conformance is the smallest conformance level that admits the file.", conformance_computed},
     {"PS1034", kError, "C-034", Stage::model, "Each total of PSHD is the sum over the meshes.",
      totals_summed},
     {"PS1035", kError, "C-035", Stage::model, "decoder_memory is the value of its formula.",

@@ -5,59 +5,26 @@
 #include <span>
 #include <vector>
 
+#include "core/byte_sink.h"
 #include "core/bytes.h"
 #include "core/limits.h"
 #include "core/progressive_strips.h"
 #include "core/result.h"
+#include "formats/pstrip/container/header.h"
 
 namespace pstrips::inline formats {
 
-// The binary variant of progressive strips, plain profile. [spec/container.md]
+// The binary variant of progressive strips. [spec/container.md]
 
-/// What PSHD says. [spec/container.md §5.1]
-struct FileHeader {
-  std::uint16_t version_major = 1;
-  std::uint16_t version_minor = 0;
-  std::uint8_t profile = 0;  ///< 0 plain
-  std::uint8_t level = 0;    ///< conformance level, see conformance_level()
-  std::uint16_t flags = 0;
-  std::uint32_t meshes = 0;
-  std::uint32_t packets = 0;
-  // At full resolution, all meshes together.
-  std::uint64_t vertices = 0, wedges = 0, triangles = 0, strips = 0, map_entries = 0, faces = 0;
-  std::uint64_t decoder_memory = 0;  ///< bytes, see decoder_memory()
-  std::uint64_t vsplits = 0;
-  std::uint64_t base_end = 0;    ///< bytes from the start of the file to the end of the last BASE
-  std::uint64_t file_bytes = 0;  ///< of the whole file
-  friend bool operator==(const FileHeader&, const FileHeader&) = default;
-};
-
-/// One row of PIDX: where a BASE or PCKT chunk stands and what its mesh has after it.
-/// [spec/container.md §6]
-struct IndexRow {
-  std::uint64_t offset = 0;  ///< of the chunk, from the start of the file
-  std::uint32_t bytes = 0;   ///< of the whole chunk, type to CRC
-  std::uint32_t mesh = 0;
-  std::uint32_t vsplits = 0;  ///< in the chunk
-  std::uint32_t vertices = 0, triangles = 0, strips = 0;
-  float error = 0, one_sided_error = 0;
-  friend bool operator==(const IndexRow&, const IndexRow&) = default;
-};
-
-/// The smallest conformance level that admits these totals. [spec/container.md §12]
-std::uint8_t conformance_level(const FileHeader& header);
-
-/// The memory that a streaming decoder needs for these meshes, bytes. [spec/container.md §12]
-///
-/// meshes              vertices, wedges, map length and attribute formats are used, data is not
-/// largest_chunk       bytes of the largest BASE or PCKT chunk
-std::uint64_t decoder_memory(std::span<const ProgressiveMesh> meshes, std::uint64_t largest_chunk);
-
-/// Writes a whole file. The same strips give the same bytes.
+/// Writes a whole file, chunk by chunk. The same strips give the same bytes.
 ///
 /// Precondition: `strips` is complete and `check(strips)` holds (formats/pstrip/payload/check.h).
-/// errors  over_limit when a chunk would exceed 2^31 - 1 bytes
-/// cost    O(file); one buffer of exactly the file's size
+/// errors  over_limit when a chunk would exceed 2^31 - 1 bytes, before anything is written; those
+/// of
+///         the sink
+/// cost    O(file); memory for the largest chunk
+Result<void> write_binary(const ProgressiveStrips& strips, ByteSink& out);
+/// The same into memory.
 Result<Bytes> write_binary(const ProgressiveStrips& strips);
 
 /// The same for strips that break rules, to make files that a validator must refuse. Lists must be

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/fault_list.h"
 #include "core/result.h"
 
 namespace pstrips::inline formats {
@@ -16,6 +17,9 @@ namespace pstrips::inline formats {
 inline constexpr std::array<std::byte, 8> kSignature = {
     std::byte{0x8a}, std::byte{'P'},  std::byte{'S'},  std::byte{'T'},
     std::byte{0x0d}, std::byte{0x0a}, std::byte{0x1a}, std::byte{0x0a}};
+
+/// Whether the bytes, as far as they are there, are those of the signature.
+bool starts_with_signature(ByteView file);
 
 using ChunkType = std::array<char, 4>;
 
@@ -45,6 +49,7 @@ constexpr bool is_critical(const ChunkType& type) { return (type[0] & 0x20) == 0
 constexpr bool is_private(const ChunkType& type) { return (type[1] & 0x20) != 0; }
 /// The chunk stays true when other chunks of the file change.
 constexpr bool is_safe_to_copy(const ChunkType& type) { return (type[3] & 0x20) != 0; }
+/// It is one of chunk_table.h.
 bool is_known(const ChunkType& type);
 
 inline constexpr std::uint64_t kChunkAlignment = 8;
@@ -57,9 +62,23 @@ constexpr std::uint64_t chunk_bytes(std::uint64_t payload) {
          kChunkAlignment;
 }
 
+/// What stands in front of a payload.
+struct ChunkHead {
+  ChunkType type{};
+  std::uint32_t payload_bytes = 0;
+
+  std::uint64_t chunk_bytes() const { return formats::chunk_bytes(payload_bytes); }
+  /// What is wrong with it, whatever stands around it; none: nothing.
+  Fault fault() const;
+};
+
+/// Precondition: there are kChunkHeaderBytes of them.
+ChunkHead read_chunk_head(ByteView bytes);
+
 /// One whole chunk of a file in memory.
 struct Chunk {
   ChunkType type{};
+  std::uint64_t number = 0;  ///< of the chunk in the file
   std::uint64_t offset = 0;  ///< of the type, from the start of the file
   ByteView payload;          ///< into the file
   std::uint32_t stored_crc = 0;
@@ -70,6 +89,10 @@ struct Chunk {
   std::uint64_t bytes() const { return chunk_bytes(payload.size()); }
   std::uint64_t payload_offset() const { return offset + kChunkHeaderBytes; }
 };
+
+/// The chunk at the front of `bytes`, which is whole there. Whether its CRC and padding are right
+/// is left to the caller.
+Chunk read_chunk(ByteView bytes, std::uint64_t number, std::uint64_t offset);
 
 /// Chunks up to where the frame breaks. A wrong CRC or padding does not break it.
 struct ChunkList {

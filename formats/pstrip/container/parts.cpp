@@ -1,7 +1,8 @@
 #include "formats/pstrip/container/parts.h"
 
-#include <array>
+#include <optional>
 
+#include "formats/pstrip/payload/geometry.h"
 #include "formats/pstrip/payload/layout.h"
 
 namespace pstrips::inline formats {
@@ -21,23 +22,16 @@ class Lister {
       spans_.push_back({part, chunk_, offset, bytes});
   }
 
-  void chunk(const Chunk& chunk, std::uint32_t index) {
-    chunk_ = index;
+  void add(const Chunk& chunk) {
+    chunk_ = static_cast<std::uint32_t>(chunk.number);
     const std::uint64_t payload = chunk.payload_offset();
     add(Part::container, chunk.offset, kChunkHeaderBytes);
-    if (chunk.type == kBaseChunk)
-      arrays(
-          chunk, BaseHead{}, [](auto& io, auto& head) { base_head_fields(io, head); },
-          [](auto& io, const auto& head, const auto& mesh) { base_array_fields(io, head, mesh); });
-    else if (chunk.type == kPacketChunk)
-      arrays(
-          chunk, PacketHead{}, [](auto& io, auto& head) { packet_head_fields(io, head); },
-          [](auto& io, const auto& head, const auto& mesh) {
-            packet_array_fields(io, head, mesh, PacketStart{});
-          });
+    if (chunk.type == kBaseChunk || chunk.type == kPacketChunk)
+      add_geometry(chunk);
     else
       add(part_of(chunk.type), payload, chunk.payload.size());
-    if (chunk.type == kMeshChunk) remember(chunk);
+    if (chunk.type == kHeaderChunk) profile_ = profile_of(chunk);
+    if (chunk.type == kMeshChunk) meshes_.push_back(mesh_of(chunk));
     const std::uint64_t end = payload + chunk.payload.size();
     add(Part::container, end, chunk.offset + chunk.bytes() - end);
   }
@@ -45,49 +39,36 @@ class Lister {
   std::vector<PartSpan> take() { return std::move(spans_); }
 
  private:
-  static Part part_of(const ChunkType& type) {
-    if (type == kHeaderChunk || type == kEndChunk) return Part::container;
-    if (type == kMeshChunk) return Part::mesh_header;
-    if (type == kIndexChunk) return Part::packet_index;
-    if (type == kSceneChunk || type == kMaterialsChunk) return Part::scene;
-    if (type == kFacesChunk) return Part::faces;
-    if (type == kOrderChunk) return Part::order;
-    if (type == kDigestChunk) return Part::digest;
-    if (type == kImageChunk) return Part::images;
-    if (type == kForeignChunk) return Part::foreign;
-    return Part::unknown;
+  std::optional<Profile> profile_of(const Chunk& chunk) const {
+    FirstFault ignored;
+    ReadIo io(chunk, limits_.string_bytes, ignored);
+    FileHeader header;
+    header_fields(io, header);
+    return profile_numbered(header.profile);
   }
 
-  void remember(const Chunk& chunk) {
-    ReadIo io(chunk.payload, chunk.payload_offset(), limits_.string_bytes);
+  ProgressiveMesh mesh_of(const Chunk& chunk) const {
+    FirstFault ignored;
+    ReadIo io(chunk, limits_.string_bytes, ignored);
     ProgressiveMesh mesh;
     MeshCounts counts;
     mesh_fields(io, mesh, counts);
-    meshes_.push_back(std::move(mesh));
+    return mesh;
   }
 
-  /// A payload of a head and aligned arrays whose sizes follow from the head and the mesh.
-  template <class Head, class HeadFields, class ArrayFields>
-  void arrays(const Chunk& chunk, Head head, HeadFields&& head_fields, ArrayFields&& array_fields) {
-    const std::uint64_t payload = chunk.payload_offset();
-    ReadIo in(chunk.payload, payload, limits_.string_bytes);
-    head_fields(in, head);
-    if (in.in().error() || head.mesh >= meshes_.size())
-      return add(Part::container, payload, chunk.payload.size());
-    PartIo io;
-    head_fields(io, std::as_const(head));
-    array_fields(io, head, meshes_[head.mesh]);
-    if (io.size() != chunk.payload.size())
-      return add(Part::container, payload, chunk.payload.size());
-    add(Part::container, payload, io.marks().front().position);
-    for (std::size_t i = 0; i < io.marks().size(); ++i) {
-      const std::uint64_t begin = io.marks()[i].position;
-      const std::uint64_t end = i + 1 < io.marks().size() ? io.marks()[i + 1].position : io.size();
-      add(io.marks()[i].part, payload + begin, end - begin);
+  void add_geometry(const Chunk& chunk) {
+    std::vector<PartMark> marks;
+    if (profile_) marks = codec_of(*profile_).parts(chunk, meshes_);
+    if (marks.empty()) marks.push_back({});
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+      const std::uint64_t begin = marks[i].position;
+      const std::uint64_t end = i + 1 < marks.size() ? marks[i + 1].position : chunk.payload.size();
+      add(marks[i].part, chunk.payload_offset() + begin, end - begin);
     }
   }
 
   Limits limits_;
+  std::optional<Profile> profile_;
   std::vector<ProgressiveMesh> meshes_;  ///< as far as MESH describes them
   std::vector<PartSpan> spans_;
   std::uint32_t chunk_ = 0;
@@ -95,20 +76,10 @@ class Lister {
 
 }  // namespace
 
-std::string_view name_of(Part part) {
-  constexpr std::array<std::string_view, 20> kNames = {
-      "container", "mesh_header", "packet_index", "base_positions", "base_wedges",
-      "base_map",  "parents",     "counts",       "positions",      "parent_positions",
-      "wedges",    "reassigned",  "map_offsets",  "faces",          "order",
-      "digest",    "scene",       "images",       "foreign",        "unknown"};
-  return kNames[static_cast<std::size_t>(part)];
-}
-
 std::vector<PartSpan> list_parts(const ChunkList& chunks, const Limits& limits) {
   Lister lister(limits);
   if (chunks.end >= kSignature.size()) lister.add(Part::container, 0, kSignature.size());
-  for (std::size_t i = 0; i < chunks.chunks.size(); ++i)
-    lister.chunk(chunks.chunks[i], static_cast<std::uint32_t>(i));
+  for (const Chunk& chunk : chunks.chunks) lister.add(chunk);
   return lister.take();
 }
 

@@ -1,107 +1,168 @@
 #include "formats/pstrip/payload/check.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "formats/pstrip/payload/predicates.h"
 
 namespace pstrips::inline formats {
 namespace {
 
-/// Keeps every sum of array sizes within 64 bits. [spec/model.md M-006]
-constexpr std::size_t kMaxAttributes = 1024;
+/// Reports faults of one mesh.
+class MeshFaults {
+ public:
+  MeshFaults(Index mesh, FaultSink& faults) : mesh_(mesh), faults_(faults) {}
 
-tl::unexpected<Error> corrupt(std::string message, std::string path) {
-  return fail(ErrorCode::corrupt, std::move(message), kNoOffset, std::move(path));
-}
-
-std::string mesh_path(Index mesh) { return "/meshes/" + std::to_string(mesh); }
-
-std::string item_path(Index mesh, const char* list, std::size_t i) {
-  return mesh_path(mesh) + "/" + list + "/" + std::to_string(i);
-}
-
-Result<void> check_format(const Attribute& a, const std::string& path) {
-  if (a.count == 0) return corrupt("attribute without components", path);
-  if (static_cast<std::size_t>(a.type) > static_cast<std::size_t>(ComponentType::f64))
-    return corrupt("attribute of unknown type", path);
-  return {};
-}
-
-/// Bounds of n runs over `size` items: from 0, never falling, to `size`; no list at all for n = 0.
-bool are_bounds(const std::vector<Index>& first, std::size_t n, std::size_t size) {
-  if (n == 0) return first.empty() && size == 0;
-  return first.size() == n + 1 && first.front() == 0 && first.back() == size &&
-         std::ranges::is_sorted(first);
-}
-
-/// The first element that is not below `end`, or the size.
-std::size_t first_not_below(std::span<const Index> list, Index end) {
-  return static_cast<std::size_t>(std::ranges::find_if(list, [&](Index i) { return i >= end; }) -
-                                  list.begin());
-}
-
-Result<void> check_permutation(std::span<const Index> list, Index count, Index mesh,
-                               const char* name) {
-  if (list.size() != count)
-    return corrupt("order has not one entry for each element", mesh_path(mesh) + "/order");
-  std::vector<bool> named(count);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i] >= count)
-      return corrupt("order names an element past the end", item_path(mesh, name, i));
-    if (named[list[i]]) return corrupt("order names an element twice", item_path(mesh, name, i));
-    named[list[i]] = true;
+  bool report(Fault fault, Field field = Field::mesh, std::uint64_t element = 0) {
+    faults_.report(fault, {.field = field, .mesh = mesh_, .element = element}, {});
+    return false;
   }
-  return {};
+  bool in_record(Fault fault, std::size_t record) {
+    faults_.report(
+        fault, {.field = Field::record, .mesh = mesh_, .record = static_cast<Index>(record)}, {});
+    return false;
+  }
+  /// For the predicates: reports the element and stops.
+  auto at(Fault fault, Field field) {
+    return [this, fault, field](std::size_t i) { return report(fault, field, i); };
+  }
+
+ private:
+  Index mesh_;
+  FaultSink& faults_;
+};
+
+bool check_format(const Attribute& a, Field field, std::size_t i, MeshFaults& faults) {
+  if (a.count == 0) return faults.report(Fault::no_components, field, i);
+  if (static_cast<std::size_t>(a.type) > static_cast<std::size_t>(ComponentType::f64))
+    return faults.report(Fault::type_undefined, field, i);
+  return true;
+}
+
+bool check_formats(const ProgressiveMesh& mesh, MeshFaults& faults) {
+  if (!check_format(mesh.position, Field::position_format, 0, faults)) return false;
+  for (std::size_t i = 0; i < mesh.wedge_attributes.size(); ++i)
+    if (!check_format(mesh.wedge_attributes[i], Field::wedge_format, i, faults)) return false;
+  for (std::size_t i = 0; i < mesh.face_attribute_formats.size(); ++i)
+    if (!check_format(mesh.face_attribute_formats[i], Field::face_format, i, faults)) return false;
+  if (std::max(mesh.wedge_attributes.size(), mesh.face_attribute_formats.size()) > kMaxAttributes)
+    return faults.report(Fault::attribute_count);
+  return true;
+}
+
+bool check_counts(const ProgressiveMesh& mesh, Index map_entries, MeshFaults& faults) {
+  if (std::max({mesh.vertices, mesh.wedges, mesh.triangles, mesh.strips, map_entries}) > kMaxCount)
+    return faults.report(Fault::count_too_large);
+  if (mesh.triangles > map_entries || mesh.strips > map_entries)
+    return faults.report(Fault::entry_count);
+  if (mesh.base_vertices > mesh.vertices || mesh.base_wedges > mesh.wedges)
+    return faults.report(Fault::base_too_large);
+  if (mesh.single_wedges &&
+      (mesh.wedges != mesh.vertices || mesh.base_wedges != mesh.base_vertices))
+    return faults.report(Fault::single_wedge_counts);
+  return true;
+}
+
+bool check_permutation(std::span<const Index> list, Index count, Fault fault, Field field,
+                       MeshFaults& faults) {
+  if (list.size() != count) return faults.report(fault, Field::order);
+  return is_permutation(list, count, faults.at(fault, field));
+}
+
+/// One packet against the records of its mesh; `start` becomes its end.
+bool follow_packet(const ProgressiveStrips& strips, std::size_t number, PacketStart& start,
+                   FaultSink& faults) {
+  const Packet& packet = strips.packets[number];
+  const ProgressiveMesh& mesh = strips.meshes[packet.mesh];
+  const auto broken = [&](Fault fault) {
+    faults.report(fault, {.field = Field::packet, .packet = static_cast<Index>(number)}, {});
+    return false;
+  };
+  if (packet.first_vsplit != start.vsplit) return broken(Fault::packet_not_next);
+  if (packet.vsplits > mesh.vsplits.size() - start.vsplit) return broken(Fault::list_length);
+  if (packet.vertices != start.vertices + packet.vsplits) return broken(Fault::row_vertices);
+  const PacketStart end = packet_after(mesh, start, packet.vsplits);
+  if (!check_packet(strips, packet.mesh, start, end, faults)) return false;
+  start = end;
+  return true;
+}
+
+/// The lists of a mesh end where its packets, or the base without any, have brought it.
+bool check_ends(const ProgressiveMesh& mesh, const PacketStart& end, bool complete,
+                MeshFaults& faults) {
+  if (end.vsplit != mesh.vsplits.size() || end.offset_count != mesh.wedge_offset_counts.size() ||
+      end.reassigned != mesh.reassigned.size() || end.map_offset != mesh.map_offsets.size())
+    return faults.report(Fault::list_length);
+  if (complete && (end.vertices != mesh.vertices || end.wedges != mesh.wedges))
+    return faults.report(Fault::vsplits_missing);
+  const auto is_wrong = [](const Attribute& a, Index n) {
+    return a.data.size() != a.element_bytes() * n;
+  };
+  if (is_wrong(mesh.position, end.vertices) ||
+      std::ranges::any_of(mesh.wedge_attributes,
+                          [&](const Attribute& a) { return is_wrong(a, end.wedges); }))
+    return faults.report(Fault::list_length);
+  const std::size_t moved = mesh.placement == Placement::optimal ? end.vsplit : 0;
+  if (mesh.parent_position.size() != moved * mesh.position.element_bytes())
+    return faults.report(Fault::list_length);
+  return true;
 }
 
 /// Packets in file order against the vsplits of each mesh.
-Result<void> check_packets(const ProgressiveStrips& strips) {
+bool check_packets(const ProgressiveStrips& strips, FaultSink& faults) {
   const auto meshes = static_cast<Index>(strips.meshes.size());
+  const auto broken = [&](Fault fault, const Where& where) {
+    faults.report(fault, where, {});
+    return false;
+  };
   if (strips.bases.size() != strips.meshes.size())
-    return corrupt("not one base for each mesh", "/bases");
+    return broken(Fault::base_chunks, {.field = Field::base});
   std::vector<PacketStart> reached;
   for (Index m = 0; m < meshes; ++m) {
     const BaseLevel& base = strips.bases[m];
     if (base.mesh != m || base.first_vsplit != 0 || base.vsplits != 0 ||
         base.vertices != strips.meshes[m].base_vertices)
-      return corrupt("base level contradicts its mesh", "/bases/" + std::to_string(m));
+      return broken(Fault::base_counts, {.field = Field::base, .mesh = m});
     reached.push_back(first_packet(strips.meshes[m]));
   }
   for (std::size_t k = 0; k < strips.packets.size(); ++k) {
-    const Packet& packet = strips.packets[k];
-    const std::string path = "/packets/" + std::to_string(k);
-    if (packet.mesh >= meshes) return corrupt("packet names a mesh past the end", path);
-    const ProgressiveMesh& mesh = strips.meshes[packet.mesh];
-    PacketStart& start = reached[packet.mesh];
-    if (packet.first_vsplit != start.vsplit)
-      return corrupt("packet does not continue where the one before ends", path);
-    if (packet.vsplits > mesh.vsplits.size() - start.vsplit)
-      return corrupt("packet has more vsplits than its mesh", path);
-    if (packet.vertices != start.vertices + packet.vsplits)
-      return corrupt("packet contradicts its vertex count", path);
-    const PacketStart end = packet_after(mesh, start, packet.vsplits);
-    if (Result<void> ok = check_packet(strips, packet.mesh, start, end); !ok) return ok;
-    start = end;
+    if (strips.packets[k].mesh >= meshes)
+      return broken(Fault::packet_mesh, {.field = Field::packet, .packet = static_cast<Index>(k)});
+    if (!follow_packet(strips, k, reached[strips.packets[k].mesh], faults)) return false;
   }
   for (Index m = 0; m < meshes; ++m) {
-    const ProgressiveMesh& mesh = strips.meshes[m];
-    const PacketStart& end = reached[m];
-    if (end.vsplit != mesh.vsplits.size() || end.offset_count != mesh.wedge_offset_counts.size() ||
-        end.reassigned != mesh.reassigned.size() || end.map_offset != mesh.map_offsets.size())
-      return corrupt("lists do not end with the last packet", mesh_path(m));
-    if (strips.complete && (end.vertices != mesh.vertices || end.wedges != mesh.wedges))
-      return corrupt("packets do not bring all vertices and wedges", mesh_path(m));
-    const auto wrong = [](const Attribute& a, Index n) {
-      return a.data.size() != a.element_bytes() * n;
-    };
-    if (wrong(mesh.position, end.vertices) ||
-        std::ranges::any_of(mesh.wedge_attributes,
-                            [&](const Attribute& a) { return wrong(a, end.wedges); }))
-      return corrupt("attribute has not one element for each vertex or wedge", mesh_path(m));
-    const std::size_t moved = mesh.placement == Placement::optimal ? end.vsplit : 0;
-    if (mesh.parent_position.size() != moved * mesh.position.element_bytes())
-      return corrupt("not one parent position for each vsplit", mesh_path(m));
+    MeshFaults of_mesh(m, faults);
+    if (!check_ends(strips.meshes[m], reached[m], strips.complete, of_mesh)) return false;
   }
-  return {};
+  return true;
+}
+
+bool check_mesh(const ProgressiveStrips& strips, Index m, FaultSink& faults) {
+  const ProgressiveMesh& mesh = strips.meshes[m];
+  if (mesh.base_map.size() > kMaxCount) return MeshFaults(m, faults).report(Fault::count_too_large);
+  const auto entries = static_cast<Index>(mesh.base_map.size());
+  return check_mesh_header(strips, m, entries, faults) && check_base(strips, m, faults);
+}
+
+bool check_extras(const ProgressiveStrips& strips, Index m, FaultSink& faults) {
+  const ProgressiveMesh& mesh = strips.meshes[m];
+  const bool expected = strips.complete && !mesh.face_attribute_formats.empty();
+  if ((expected || !mesh.faces.empty()) && !check_faces(strips, m, faults)) return false;
+  if (!check_order(strips, m, faults)) return false;
+  constexpr std::size_t kDigestBytes = 32;
+  if (!mesh.digest.empty() && mesh.digest.size() != kDigestBytes)
+    return MeshFaults(m, faults).report(Fault::digest_length);
+  return true;
+}
+
+bool check_all(const ProgressiveStrips& strips, FaultSink& faults) {
+  const auto meshes = static_cast<Index>(strips.meshes.size());
+  if (!check_scene(strips, faults)) return false;
+  for (Index m = 0; m < meshes; ++m)
+    if (!check_mesh(strips, m, faults)) return false;
+  if (!check_packets(strips, faults)) return false;
+  for (Index m = 0; m < meshes; ++m)
+    if (!check_extras(strips, m, faults)) return false;
+  return true;
 }
 
 }  // namespace
@@ -128,96 +189,73 @@ Index face_count(const ProgressiveMesh& mesh) {
   return static_cast<Index>(mesh.triangles - mesh.faces.replaced.size() + mesh.faces.count());
 }
 
-Result<void> check_mesh_header(const ProgressiveStrips& strips, Index index, Index map_entries) {
+bool check_mesh_header(const ProgressiveStrips& strips, Index index, Index map_entries,
+                       FaultSink& sink) {
   const ProgressiveMesh& mesh = strips.meshes[index];
-  if (Result<void> ok = check_format(mesh.position, mesh_path(index) + "/position"); !ok) return ok;
-  for (std::size_t i = 0; i < mesh.wedge_attributes.size(); ++i) {
-    const std::string path = item_path(index, "wedge_attributes", i);
-    if (Result<void> ok = check_format(mesh.wedge_attributes[i], path); !ok) return ok;
-  }
-  for (std::size_t i = 0; i < mesh.face_attribute_formats.size(); ++i) {
-    const std::string path = item_path(index, "face_attributes", i);
-    if (Result<void> ok = check_format(mesh.face_attribute_formats[i], path); !ok) return ok;
-  }
-  if (std::max(mesh.wedge_attributes.size(), mesh.face_attribute_formats.size()) > kMaxAttributes)
-    return corrupt("more than 1024 attributes of a kind", mesh_path(index));
+  MeshFaults faults(index, sink);
+  if (!check_formats(mesh, faults)) return false;
   if (mesh.groups.empty() || mesh.groups.size() != mesh.group_entries.size())
-    return corrupt("mesh without a group", mesh_path(index));
-  std::uint64_t entries = 0;
+    return faults.report(Fault::group_missing);
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {
-    const Group& group = mesh.groups[i];
-    if (group.material != kNone && group.material >= strips.scene.materials.size())
-      return corrupt("group names a material past the end", item_path(index, "groups", i));
-    entries += mesh.group_entries[i];
+    const Index material = mesh.groups[i].material;
+    if (material != kNone && material >= strips.scene.materials.size())
+      return faults.report(Fault::group_material, Field::group, i);
   }
-  if (entries != map_entries)
-    return corrupt("groups do not add up to the index map", mesh_path(index));
-  if (std::max({mesh.vertices, mesh.wedges, mesh.triangles, mesh.strips, map_entries}) > kMaxCount)
-    return corrupt("count exceeds what an index can name", mesh_path(index));
-  if (mesh.triangles > map_entries || mesh.strips > map_entries)
-    return corrupt("more triangles or strips than index-map entries", mesh_path(index));
-  if (mesh.base_vertices > mesh.vertices || mesh.base_wedges > mesh.wedges)
-    return corrupt("base is larger than the mesh", mesh_path(index));
-  if (mesh.single_wedges &&
-      (mesh.wedges != mesh.vertices || mesh.base_wedges != mesh.base_vertices))
-    return corrupt("single wedges, yet more or fewer wedges than vertices", mesh_path(index));
-  return {};
+  if (sum_of_group_entries(mesh) != map_entries) return faults.report(Fault::group_entries);
+  return check_counts(mesh, map_entries, faults);
 }
 
-Result<void> check_base(const ProgressiveStrips& strips, Index index) {
+bool check_base(const ProgressiveStrips& strips, Index index, FaultSink& sink) {
   const ProgressiveMesh& mesh = strips.meshes[index];
+  MeshFaults faults(index, sink);
   if (mesh.base_wedge_vertex.size() != (mesh.single_wedges ? 0 : mesh.base_wedges))
-    return corrupt("not one vertex for each base wedge", mesh_path(index));
-  if (const std::size_t i = first_not_below(mesh.base_wedge_vertex, mesh.base_vertices);
-      i < mesh.base_wedge_vertex.size())
-    return corrupt("wedge names a vertex past the end", item_path(index, "base_wedge_vertex", i));
+    return faults.report(Fault::list_length);
+  if (!all_below(mesh.base_wedge_vertex, mesh.base_vertices,
+                 faults.at(Fault::wedge_vertex, Field::base_wedge_vertex)))
+    return false;
   for (std::size_t i = 0; i < mesh.base_map.size(); ++i) {
     const Index entry = mesh.base_map[i];
     if (entry < mesh.base_wedges || entry == kRestart) continue;
-    if (is_wedge(entry))
-      return corrupt("index map names a wedge past the end", item_path(index, "base_map", i));
+    if (is_wedge(entry)) return faults.report(Fault::map_entry, Field::base_map, i);
     if (mesh.encoding == MapEncoding::naive)
-      return corrupt("symbol in a naive index map", item_path(index, "base_map", i));
+      return faults.report(Fault::map_symbol, Field::base_map, i);
   }
   // Records write wedges only, so chains that end in the base end at every level.
   if (mesh.encoding == MapEncoding::offset)
     if (const auto resolved = resolve(mesh.base_map); !resolved)
-      return corrupt(resolved.error().message,
-                     item_path(index, "base_map", resolved.error().offset));
-  return {};
+      return faults.report(Fault::symbol_chain, Field::base_map, resolved.error().offset);
+  return true;
 }
 
-Result<void> check_packet(const ProgressiveStrips& strips, Index index, const PacketStart& start,
-                          const PacketStart& end) {
+bool check_packet(const ProgressiveStrips& strips, Index index, const PacketStart& start,
+                  const PacketStart& end, FaultSink& sink) {
   const ProgressiveMesh& mesh = strips.meshes[index];
-  if (end.vertices > mesh.vertices || end.wedges > mesh.wedges ||
+  MeshFaults faults(index, sink);
+  if (end.vertices > mesh.vertices) return faults.report(Fault::vsplit_count);
+  if (end.wedges > mesh.wedges ||
       end.wedges - start.wedges != end.offset_count - start.offset_count)
-    return corrupt("more vertices or wedges than the mesh has", mesh_path(index));
+    return faults.report(Fault::wedge_count);
   if (end.offset_count > mesh.wedge_offset_counts.size() ||
       end.reassigned > mesh.reassigned.size() || end.map_offset > mesh.map_offsets.size())
-    return corrupt("list ends before the records do", mesh_path(index));
+    return faults.report(Fault::list_length);
   PacketStart at = start;
   for (std::size_t i = start.vsplit; i < end.vsplit; ++i) {
     const Vsplit& v = mesh.vsplits[i];
-    const auto bad = [&](const char* message) {
-      return corrupt(message, item_path(index, "vsplits", i));
-    };
-    if (v.parent > at.vertices) return bad("vsplit names a parent past its own vertex");
+    const auto broken = [&](Fault fault) { return faults.in_record(fault, i); };
+    if (v.parent > at.vertices) return broken(Fault::parent_not_there);
     if (v.parent == at.vertices && v.reassigned != 0)
-      return bad("vertex of its own takes over wedges");
+      return broken(Fault::isolated_vertex_reassigns);
     if (mesh.single_wedges && (v.wedges != 1 || v.reassigned != 0))
-      return bad("single wedges, yet the vsplit has not one wedge");
+      return broken(Fault::packet_single_wedges);
     for (std::size_t c = at.reassigned; c < at.reassigned + v.reassigned; ++c)
-      if (mesh.reassigned[c] >= at.wedges) return bad("reassigned wedge is past the end");
+      if (mesh.reassigned[c] >= at.wedges) return broken(Fault::reassigned_not_there);
     std::uint64_t map_offsets = 0;
     for (std::size_t w = at.offset_count; w < at.offset_count + v.wedges; ++w)
       map_offsets += mesh.wedge_offset_counts[w];
-    if (map_offsets != v.map_offsets) return bad("map offsets of the wedges do not add up");
+    if (map_offsets != v.map_offsets) return broken(Fault::packet_offsets);
     for (std::size_t p = at.map_offset; p < at.map_offset + v.map_offsets; ++p) {
-      if (mesh.map_offsets[p] >= mesh.base_map.size())
-        return bad("map offset is past the end of the map");
-      if (mesh.base_map[mesh.map_offsets[p]] == kRestart)
-        return bad("map offset is that of a restart");
+      if (mesh.map_offsets[p] >= mesh.base_map.size()) return broken(Fault::offset_past_end);
+      if (mesh.base_map[mesh.map_offsets[p]] == kRestart) return broken(Fault::offset_is_restart);
     }
     at = {i + 1,
           at.offset_count + v.wedges,
@@ -226,111 +264,84 @@ Result<void> check_packet(const ProgressiveStrips& strips, Index index, const Pa
           at.vertices + 1,
           at.wedges + v.wedges};
   }
-  return {};
+  return true;
 }
 
-Result<void> check_faces(const ProgressiveStrips& strips, Index index) {
+bool check_faces(const ProgressiveStrips& strips, Index index, FaultSink& sink) {
   const ProgressiveMesh& mesh = strips.meshes[index];
   const FaceTable& faces = mesh.faces;
-  const auto bad = [&](const char* message) {
-    return corrupt(message, mesh_path(index) + "/faces");
+  const auto broken = [&](Fault fault) {
+    return MeshFaults(index, sink).report(fault, Field::faces);
   };
-  const std::size_t n = faces.count();
-  if (!are_bounds(faces.first, n, faces.corners.size()))
-    return bad("face bounds do not partition the corners");
-  if (!are_bounds(faces.replaced_first, n, faces.replaced.size()))
-    return bad("face bounds do not partition the replaced triangles");
-  if (faces.group.size() != n) return bad("not one group for each face");
-  if (faces.replaced.size() > mesh.triangles) return bad("more triangles replaced than there are");
+  const auto stop = [](std::size_t) { return false; };
+  const std::size_t n = faces.count(), bounds = n == 0 ? 0 : n + 1;
+  if (faces.first.size() != bounds || !are_bounds(faces.first, faces.corners.size(), stop))
+    return broken(Fault::face_bounds);
+  if (faces.replaced_first.size() != bounds ||
+      !are_bounds(faces.replaced_first, faces.replaced.size(), stop))
+    return broken(Fault::replaced_bounds);
+  if (faces.group.size() != n) return broken(Fault::list_length);
+  if (faces.replaced.size() > mesh.triangles) return broken(Fault::replaced_twice);
   if (std::uint64_t{mesh.triangles} - faces.replaced.size() + n > kMaxCount)
-    return bad("count exceeds what an index can name");
-  if (first_not_below(faces.corners, mesh.wedges) < faces.corners.size())
-    return bad("face names a wedge past the end");
-  if (first_not_below(faces.group, static_cast<Index>(mesh.groups.size())) < n)
-    return bad("face names a group past the end");
-  if (first_not_below(faces.replaced, mesh.triangles) < faces.replaced.size())
-    return bad("face replaces a triangle past the end");
-  std::vector<bool> is_replaced(faces.replaced.empty() ? 0 : mesh.triangles);
-  for (const Index t : faces.replaced) {
-    if (is_replaced[t]) return bad("triangle is replaced twice");
-    is_replaced[t] = true;
-  }
+    return broken(Fault::count_too_large);
+  if (!all_below(faces.corners, mesh.wedges, stop)) return broken(Fault::face_corner);
+  if (!all_below(faces.group, mesh.groups.size(), stop)) return broken(Fault::face_group);
+  if (!all_below(faces.replaced, mesh.triangles, stop)) return broken(Fault::replaced_triangle);
+  if (!all_differ(faces.replaced, mesh.triangles, stop)) return broken(Fault::replaced_twice);
   if (faces.attributes.size() != mesh.face_attribute_formats.size())
-    return bad("face attributes are not those of the mesh");
+    return broken(Fault::faces_missing);
   for (std::size_t i = 0; i < faces.attributes.size(); ++i) {
     const Attribute& a = faces.attributes[i];
-    if (!a.same_format(mesh.face_attribute_formats[i]))
-      return bad("face attributes are not those of the mesh");
-    if (a.data.size() != a.element_bytes() * face_count(mesh))
-      return bad("face attribute has not one element for each face");
+    if (!a.same_format(mesh.face_attribute_formats[i])) return broken(Fault::list_length);
+    if (a.data.size() != a.element_bytes() * face_count(mesh)) return broken(Fault::face_elements);
   }
-  return {};
+  return true;
 }
 
-Result<void> check_order(const ProgressiveStrips& strips, Index index) {
+bool check_order(const ProgressiveStrips& strips, Index index, FaultSink& sink) {
   const ProgressiveMesh& mesh = strips.meshes[index];
   const OriginalOrder& order = mesh.order;
+  MeshFaults faults(index, sink);
   const Index faces = face_count(mesh);
-  if (order == OriginalOrder{}) return {};
-  if (Result<void> ok = check_permutation(order.vertex, mesh.vertices, index, "order/vertex"); !ok)
-    return ok;
-  if (Result<void> ok = check_permutation(order.wedge, mesh.single_wedges ? 0 : mesh.wedges, index,
-                                          "order/wedge");
-      !ok)
-    return ok;
-  if (Result<void> ok = check_permutation(order.face, faces, index, "order/face"); !ok) return ok;
-  if (order.rotation.size() != faces)
-    return corrupt("not one rotation for each face", mesh_path(index) + "/order");
+  if (order == OriginalOrder{}) return true;
+  if (!check_permutation(order.vertex, mesh.vertices, Fault::order_vertex, Field::order_vertex,
+                         faults) ||
+      !check_permutation(order.wedge, mesh.single_wedges ? 0 : mesh.wedges, Fault::order_wedge,
+                         Field::order_wedge, faults) ||
+      !check_permutation(order.face, faces, Fault::order_face, Field::order_face, faults))
+    return false;
+  if (order.rotation.size() != faces) return faults.report(Fault::rotation, Field::order);
   const std::size_t triangles = faces - mesh.faces.count();
-  for (std::size_t f = 0; f < faces; ++f) {
-    const Index corners =
-        f < triangles ? 3 : mesh.faces.first[f - triangles + 1] - mesh.faces.first[f - triangles];
-    if (order.rotation[f] >= std::max<Index>(corners, 1))
-      return corrupt("rotation is past the last corner", item_path(index, "order/rotation", f));
-  }
-  return {};
+  for (std::size_t f = 0; f < faces; ++f)
+    if (!is_rotation(order.rotation[f], corners_of_face(mesh.faces, triangles, f)))
+      return faults.report(Fault::rotation, Field::rotation, f);
+  return true;
 }
 
-Result<void> check_scene(const ProgressiveStrips& strips) {
+bool check_scene(const ProgressiveStrips& strips, FaultSink& faults) {
   const Scene& scene = strips.scene;
+  const auto broken = [&](Fault fault, Field field, std::size_t i) {
+    faults.report(fault, {.field = field, .element = i}, {});
+    return false;
+  };
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
-    const std::string path = "/scene/nodes/" + std::to_string(i);
-    if (node.parent != kNone && node.parent >= i)
-      return corrupt("node does not come after its parent", path);
-    if (first_not_below(node.meshes, static_cast<Index>(strips.meshes.size())) < node.meshes.size())
-      return corrupt("node names a mesh past the end", path);
+    if (node.parent != kNone && node.parent >= i) return broken(Fault::node_parent, Field::node, i);
+    if (!all_below(node.meshes, strips.meshes.size(), [](std::size_t) { return false; }))
+      return broken(Fault::node_mesh, Field::node, i);
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Index image = scene.materials[i].base_color_image;
     if (image != kNone && image >= scene.images.size())
-      return corrupt("material names an image past the end",
-                     "/scene/materials/" + std::to_string(i));
+      return broken(Fault::material_image, Field::material, i);
   }
-  return {};
+  return true;
 }
 
 Result<void> check(const ProgressiveStrips& strips) {
-  if (Result<void> ok = check_scene(strips); !ok) return ok;
-  for (Index m = 0; m < strips.meshes.size(); ++m) {
-    const ProgressiveMesh& mesh = strips.meshes[m];
-    if (mesh.base_map.size() > kMaxCount)
-      return corrupt("count exceeds what an index can name", mesh_path(m));
-    const auto entries = static_cast<Index>(mesh.base_map.size());
-    if (Result<void> ok = check_mesh_header(strips, m, entries); !ok) return ok;
-    if (Result<void> ok = check_base(strips, m); !ok) return ok;
-  }
-  if (Result<void> ok = check_packets(strips); !ok) return ok;
-  for (Index m = 0; m < strips.meshes.size(); ++m) {
-    const ProgressiveMesh& mesh = strips.meshes[m];
-    const bool expected = strips.complete && !mesh.face_attribute_formats.empty();
-    if (expected || !mesh.faces.empty())
-      if (Result<void> ok = check_faces(strips, m); !ok) return ok;
-    if (Result<void> ok = check_order(strips, m); !ok) return ok;
-    if (!mesh.digest.empty() && mesh.digest.size() != 32)
-      return corrupt("digest is not of 32 bytes", mesh_path(m));
-  }
-  return {};
+  FirstFault faults;
+  if (check_all(strips, faults)) return {};
+  return tl::unexpected<Error>(error_of(*faults.first()));
 }
 
 }  // namespace pstrips::inline formats

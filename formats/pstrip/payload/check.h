@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/fault_list.h"
 #include "core/progressive_strips.h"
 #include "core/result.h"
 
@@ -20,18 +21,21 @@ PacketStart first_packet(const ProgressiveMesh& mesh);
 /// The start of the packet after one of `vsplits` records that starts at `start`.
 PacketStart packet_after(const ProgressiveMesh& mesh, const PacketStart& start, Index vsplits);
 
+// Each of these reports the first demand that is broken and returns whether there is none.
+
 /// Names, formats, groups and counts of mesh `index`, before its base is there.
-Result<void> check_mesh_header(const ProgressiveStrips& strips, Index index, Index map_entries);
+bool check_mesh_header(const ProgressiveStrips& strips, Index index, Index map_entries,
+                       FaultSink& faults);
 /// Base lists and index map of mesh `index`.
-Result<void> check_base(const ProgressiveStrips& strips, Index index);
+bool check_base(const ProgressiveStrips& strips, Index index, FaultSink& faults);
 /// Records [start, end) of mesh `index`, given that all before them hold.
-Result<void> check_packet(const ProgressiveStrips& strips, Index index, const PacketStart& start,
-                          const PacketStart& end);
-/// Face table, order and digest of mesh `index`, as far as they are there.
-Result<void> check_faces(const ProgressiveStrips& strips, Index index);
-Result<void> check_order(const ProgressiveStrips& strips, Index index);
+bool check_packet(const ProgressiveStrips& strips, Index index, const PacketStart& start,
+                  const PacketStart& end, FaultSink& faults);
+/// Face table and order of mesh `index`, as far as they are there.
+bool check_faces(const ProgressiveStrips& strips, Index index, FaultSink& faults);
+bool check_order(const ProgressiveStrips& strips, Index index, FaultSink& faults);
 /// Parents, meshes, images and materials that nodes and materials name.
-Result<void> check_scene(const ProgressiveStrips& strips);
+bool check_scene(const ProgressiveStrips& strips, FaultSink& faults);
 
 /// All of the above and that the packets partition the vsplits. With `complete` unset, the lists
 /// may end early but not inside a packet.

@@ -1,25 +1,18 @@
 #include "formats/pstrip/payload/digest.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cassert>
-#include <memory>
-#include <new>
-#include <vector>
+#include <span>
 
 namespace pstrips::inline formats {
 namespace {
 
-class Sha256 {
+/// The canonical bytes, field by field.
+class Canonical {
  public:
-  // Fails only when OpenSSL cannot allocate or has no SHA-256 at all.
-  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
-      throw std::bad_alloc();
-  }
+  explicit Canonical(Sha256& sha) : sha_(sha) {}
 
-  void bytes(ByteView v) { EVP_DigestUpdate(context_.get(), v.data(), v.size()); }
+  void bytes(ByteView v) { sha_.add(v); }
   void u8(std::uint8_t v) { bytes(std::as_bytes(std::span(&v, 1))); }
   void u32(std::uint32_t v) { bytes(std::as_bytes(std::span(&v, 1))); }
 
@@ -34,47 +27,41 @@ class Sha256 {
     }
   }
 
-  Digest finish() {
-    Digest out;
-    EVP_DigestFinal_ex(context_.get(), reinterpret_cast<unsigned char*>(out.data()), nullptr);
-    return out;
-  }
-
  private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+  Sha256& sha_;
 };
 
-void add(Sha256& sha, const Attribute& a) {
-  sha.u32(static_cast<std::uint32_t>(a.semantic.size()));
-  sha.bytes(as_bytes(a.semantic));
-  sha.u8(static_cast<std::uint8_t>(a.type));
-  sha.u8(a.count);
-  sha.u8(a.normalized ? 1 : 0);
-  sha.u8(0);
-  sha.bytes(a.data);
+void add(Canonical& out, const Attribute& a) {
+  out.u32(static_cast<std::uint32_t>(a.semantic.size()));
+  out.bytes(as_bytes(a.semantic));
+  out.u8(static_cast<std::uint8_t>(a.type));
+  out.u8(a.count);
+  out.u8(a.normalized ? 1 : 0);
+  out.u8(0);
+  out.bytes(a.data);
 }
 
 }  // namespace
 
-Digest digest(const Mesh& decoded) {
+Digest digest(const Mesh& decoded, Sha256& sha256) {
   assert(find_inconsistency(decoded).empty());
   const Mesh& m = decoded;
-  Sha256 sha;
-  sha.bytes(as_bytes("PSTMESH1"));
-  sha.u32(m.vertex_count());
-  sha.u32(m.wedge_count());
-  sha.u32(m.face_count());
-  sha.u32(static_cast<std::uint32_t>(m.corners.size()));
-  sha.u32(static_cast<std::uint32_t>(m.wedge_attributes.size()));
-  sha.u32(static_cast<std::uint32_t>(m.face_attributes.size()));
-  add(sha, m.position);
-  sha.u32s(m.wedge_count(), [&](Index w) { return m.vertex_of(w); });
-  for (const Attribute& a : m.wedge_attributes) add(sha, a);
-  sha.u32s(m.face_count(), [&](Index f) { return static_cast<Index>(m.face(f).size()); });
-  sha.bytes(std::as_bytes(std::span(m.corners)));
-  sha.u32s(m.face_count(), [&](Index f) { return m.group_of(f); });
-  for (const Attribute& a : m.face_attributes) add(sha, a);
-  return sha.finish();
+  Canonical out(sha256);
+  out.bytes(as_bytes("PSTMESH1"));
+  out.u32(m.vertex_count());
+  out.u32(m.wedge_count());
+  out.u32(m.face_count());
+  out.u32(static_cast<std::uint32_t>(m.corners.size()));
+  out.u32(static_cast<std::uint32_t>(m.wedge_attributes.size()));
+  out.u32(static_cast<std::uint32_t>(m.face_attributes.size()));
+  add(out, m.position);
+  out.u32s(m.wedge_count(), [&](Index w) { return m.vertex_of(w); });
+  for (const Attribute& a : m.wedge_attributes) add(out, a);
+  out.u32s(m.face_count(), [&](Index f) { return static_cast<Index>(m.face(f).size()); });
+  out.bytes(std::as_bytes(std::span(m.corners)));
+  out.u32s(m.face_count(), [&](Index f) { return m.group_of(f); });
+  for (const Attribute& a : m.face_attributes) add(out, a);
+  return sha256.finish();
 }
 
 }  // namespace pstrips::inline formats

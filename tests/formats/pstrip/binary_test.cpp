@@ -121,7 +121,7 @@ TEST(Binary, HeaderDeclaresTheFile) {
   EXPECT_EQ(header.base_end, parser.index()[1].offset + parser.index()[1].bytes);
   const auto largest = std::ranges::max_element(parser.index(), {}, &IndexRow::bytes);
   EXPECT_EQ(header.decoder_memory, decoder_memory(strips.meshes, largest->bytes));
-  EXPECT_EQ(header.level, 0);
+  EXPECT_EQ(header.conformance, 0);
 }
 
 TEST(Binary, LevelIsTheSmallestThatAdmits) {
@@ -406,9 +406,43 @@ TEST(Binary, ConsistentPromisesOfBillionsCostNothing) {
   BinaryParser parser(none, file.size());
   const auto fed = parser.feed(file);
   ASSERT_FALSE(fed);
-  EXPECT_EQ(fed.error().message, "BASE is not as long as its counts say");
+  EXPECT_EQ(fed.error().fault, Fault::payload_length);
   EXPECT_EQ(parser.strips().meshes[0].position.data.capacity(), 0u);
   EXPECT_EQ(parser.strips().meshes[0].base_map.capacity(), 0u);
+}
+
+// A sink that takes so many pieces and then fails.
+class PieceSink final : public ByteSink {
+ public:
+  explicit PieceSink(std::size_t pieces) : left_(pieces) {}
+  Result<void> write(ByteView bytes) override {
+    if (left_-- == 0) return fail(ErrorCode::io, "disk is full");
+    sizes.push_back(bytes.size());
+    written.insert(written.end(), bytes.begin(), bytes.end());
+    return {};
+  }
+  std::vector<std::size_t> sizes;
+  Bytes written;
+
+ private:
+  std::size_t left_;
+};
+
+TEST(Binary, IsWrittenChunkByChunk) {
+  const ProgressiveStrips strips = rich_strips();
+  const Bytes file = write_binary(strips).value();
+  const std::vector<Chunk> chunks = read_chunks(file).chunks;
+  PieceSink all(1000);
+  ASSERT_TRUE(write_binary(strips, all));
+  EXPECT_EQ(all.written, file);
+  ASSERT_EQ(all.sizes.size(), chunks.size() + 1);
+  for (std::size_t i = 0; i < chunks.size(); ++i) EXPECT_EQ(all.sizes[i + 1], chunks[i].bytes());
+
+  PieceSink few(3);
+  const auto failed = write_binary(strips, few);
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().code, ErrorCode::io);
+  EXPECT_EQ(few.sizes.size(), 3u) << "nothing is written after an error";
 }
 
 TEST(Binary, LimitsAreAnAnswerOfTheirOwn) {

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace pstrips::inline formats {
+
+/// What the bytes of a file are spent on.
+enum class Part : std::uint8_t {
+  container,       ///< signature, chunk headers, padding, CRC, heads of payloads, PSHD, PEND
+  mesh_header,     ///< MESH
+  packet_index,    ///< PIDX
+  base_positions,  ///< positions of the base vertices
+  base_wedges,     ///< wedge lists and attributes of the base wedges
+  base_map,        ///< the index map
+  parents,         ///< which vertex each vsplit splits
+  counts,          ///< wedges, reassigned wedges and map offsets of each record
+  positions,       ///< of the new vertices
+  parent_positions,
+  wedges,       ///< attributes of the new wedges
+  reassigned,   ///< wedges taken over
+  map_offsets,  ///< index-map offsets
+  faces,        ///< fACE
+  order,        ///< oRDP
+  digest,       ///< dGST
+  scene,        ///< sCNE, mTRL
+  images,       ///< iMGE
+  foreign,      ///< fRGN
+  unknown,      ///< chunks that this build does not know
+};
+
+/// What a report sums parts up to, in the order in which it lists them.
+enum class PartGroup : std::uint8_t {
+  names_and_offsets,
+  positions,
+  wedges,
+  base,
+  faces,
+  order,
+  scene,
+  container,
+};
+inline constexpr std::size_t kPartGroups = 8;
+
+struct PartDescription {
+  Part part;
+  std::string_view name;
+  PartGroup group;
+};
+/// One a part, in the order of the enumeration.
+inline constexpr PartDescription kParts[] = {
+    {Part::container, "container", PartGroup::container},
+    {Part::mesh_header, "mesh_header", PartGroup::container},
+    {Part::packet_index, "packet_index", PartGroup::container},
+    {Part::base_positions, "base_positions", PartGroup::base},
+    {Part::base_wedges, "base_wedges", PartGroup::base},
+    {Part::base_map, "base_map", PartGroup::base},
+    {Part::parents, "parents", PartGroup::names_and_offsets},
+    {Part::counts, "counts", PartGroup::names_and_offsets},
+    {Part::positions, "positions", PartGroup::positions},
+    {Part::parent_positions, "parent_positions", PartGroup::positions},
+    {Part::wedges, "wedges", PartGroup::wedges},
+    {Part::reassigned, "reassigned", PartGroup::names_and_offsets},
+    {Part::map_offsets, "map_offsets", PartGroup::names_and_offsets},
+    {Part::faces, "faces", PartGroup::faces},
+    {Part::order, "order", PartGroup::order},
+    {Part::digest, "digest", PartGroup::container},
+    {Part::scene, "scene", PartGroup::scene},
+    {Part::images, "images", PartGroup::scene},
+    {Part::foreign, "foreign", PartGroup::scene},
+    {Part::unknown, "unknown", PartGroup::scene},
+};
+
+constexpr std::string_view name_of(Part part) {
+  return kParts[static_cast<std::size_t>(part)].name;
+}
+constexpr PartGroup group_of(Part part) { return kParts[static_cast<std::size_t>(part)].group; }
+
+struct PartGroupName {
+  std::string_view key, label;  ///< of reports for programs and for people
+};
+constexpr PartGroupName name_of(PartGroup group) {
+  constexpr PartGroupName kNames[kPartGroups] = {
+      {"names_and_offsets", "names and offsets"},
+      {"positions", "positions"},
+      {"wedges", "wedges"},
+      {"base", "base"},
+      {"faces", "faces"},
+      {"order", "original order"},
+      {"scene", "scene and images"},
+      {"container", "container"},
+  };
+  return kNames[static_cast<std::size_t>(group)];
+}
+
+}  // namespace pstrips::inline formats

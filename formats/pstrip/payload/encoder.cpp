@@ -1,0 +1,153 @@
+#include "formats/pstrip/payload/encoder.h"
+
+#include <algorithm>
+
+#include "formats/pstrip/payload/extras.h"
+
+namespace pstrips::inline formats {
+
+using namespace layout;
+
+namespace {
+
+IndexRow row_of(const Packet& packet) {
+  return {.mesh = packet.mesh,
+          .vsplits = packet.vsplits,
+          .vertices = packet.vertices,
+          .triangles = packet.triangles,
+          .strips = packet.strips,
+          .error = packet.error,
+          .one_sided_error = packet.one_sided_error};
+}
+
+}  // namespace
+
+PayloadEncoder::PayloadEncoder(const ProgressiveStrips& strips)
+    : strips_(strips), geometry_(codec_of(strips.profile).writer(strips)) {
+  for (const Image& image : strips.scene.images) embedded_.push_back(image.data.empty() ? 0 : 1);
+  for (const BaseLevel& base : strips.bases) rows_.push_back(row_of(base));
+  for (const Packet& packet : strips.packets) rows_.push_back(row_of(packet));
+  plan_chunks();
+  sum_totals();
+  fill_index();
+}
+
+void PayloadEncoder::plan_chunks() {
+  for (const auto* kind = std::begin(kChunkKinds); kind != std::end(kChunkKinds);) {
+    if (kind->type == kEndChunk)
+      for (std::size_t i = 0; i < strips_.unknown.size(); ++i) plan(strips_.unknown[i].type, i);
+    // Those of one rank stand element by element.
+    const auto* const end = std::find_if(kind, std::end(kChunkKinds),
+                                         [&](const ChunkKind& k) { return k.rank != kind->rank; });
+    for (std::size_t element = 0; element < elements(kind->of); ++element)
+      for (const auto* k = kind; k != end; ++k)
+        if (is_needed(k->type, element)) plan(k->type, element);
+    kind = end;
+  }
+}
+
+void PayloadEncoder::plan(const ChunkType& type, std::size_t element) {
+  const std::uint64_t offset =
+      chunks_.empty() ? kSignature.size() : chunks_.back().offset + chunks_.back().bytes();
+  PlannedChunk chunk{type, element, offset};
+  if (type == kBaseChunk) {
+    chunk.payload = geometry_->base_bytes(static_cast<Index>(element));
+  } else if (type == kPacketChunk) {
+    chunk.payload = geometry_->packet_bytes(element);
+  } else {
+    SizeIo size;
+    fields(size, chunk);
+    chunk.payload = size.size();
+  }
+  chunks_.push_back(chunk);
+}
+
+std::size_t PayloadEncoder::elements(ChunkOf of) const {
+  switch (of) {
+    case ChunkOf::file:
+      return 1;
+    case ChunkOf::mesh:
+      return strips_.meshes.size();
+    case ChunkOf::packet:
+      return strips_.packets.size();
+    case ChunkOf::image:
+      return strips_.scene.images.size();
+    case ChunkOf::entry:
+      return strips_.scene.foreign.size();
+  }
+  return 0;
+}
+
+bool PayloadEncoder::is_needed(const ChunkType& type, std::size_t element) const {
+  const Scene& scene = strips_.scene;
+  if (type == kSceneChunk) return !strips_.generator.empty() || !scene.nodes.empty();
+  if (type == kMaterialsChunk) return !scene.materials.empty() || !scene.images.empty();
+  if (type == kImageChunk) return embedded_[element] != 0;
+  bool needed = true;
+  visit_extra(type, [&](auto extra) { needed = extra.is_needed(strips_.meshes[element]); });
+  return needed;
+}
+
+void PayloadEncoder::sum_totals() {
+  header_.profile = static_cast<std::uint8_t>(strips_.profile);
+  header_.meshes = static_cast<std::uint32_t>(strips_.meshes.size());
+  header_.packets = static_cast<std::uint32_t>(strips_.packets.size());
+  std::vector<MeshCounts> counts;
+  for (const ProgressiveMesh& mesh : strips_.meshes) {
+    counts.push_back(counts_of(mesh));
+    if (OrderPayload::is_needed(mesh)) header_.version_minor = 1;  // that has oRDP
+  }
+  for (const Total& total : kTotals) header_.*total.total = sum_of(total, counts);
+}
+
+void PayloadEncoder::fill_index() {
+  std::uint64_t largest = 0;
+  std::size_t row = 0;
+  for (const PlannedChunk& chunk : chunks_) {
+    const std::uint64_t end = chunk.offset + chunk.bytes();
+    if (chunk.type == kIndexChunk || chunk.type == kBaseChunk) header_.base_end = end;
+    if (chunk.type != kBaseChunk && chunk.type != kPacketChunk) continue;
+    largest = std::max(largest, chunk.bytes());
+    rows_[row].offset = chunk.offset;
+    rows_[row++].bytes = static_cast<std::uint32_t>(chunk.bytes());
+  }
+  header_.file_bytes = chunks_.back().offset + chunks_.back().bytes();
+  header_.decoder_memory = decoder_memory(strips_.meshes, largest);
+  header_.conformance = conformance_level(header_);
+}
+
+template <class Io>
+void PayloadEncoder::fields(Io& io, const PlannedChunk& chunk) const {
+  const std::size_t i = chunk.element;
+  const Scene& scene = strips_.scene;
+  if (chunk.type == kHeaderChunk) return header_fields(io, header_);
+  if (chunk.type == kSceneChunk) return scene_fields(io, strips_);
+  if (chunk.type == kMaterialsChunk) return material_fields(io, scene, embedded_);
+  if (chunk.type == kMeshChunk) {
+    const MeshCounts counts = counts_of(strips_.meshes[i]);
+    return mesh_fields(io, strips_.meshes[i], counts);
+  }
+  if (chunk.type == kIndexChunk) return index_fields(io, rows_);
+  if (chunk.type == kImageChunk) {
+    const auto image = static_cast<Index>(i);
+    return image_fields(io, image, scene.images[i].data);
+  }
+  if (chunk.type == kForeignChunk) return foreign_fields(io, scene.foreign[i]);
+  if (chunk.type == kEndChunk) return;
+  const bool is_extra = visit_extra(chunk.type, [&](auto extra) {
+    const ProgressiveMesh& mesh = strips_.meshes[i];
+    const auto head = extra.head_of(mesh, static_cast<Index>(i));
+    extra_fields(io, extra, head, counts_of(mesh), mesh);
+  });
+  if (!is_extra) io.rest(strips_.unknown[i].payload);
+}
+
+void PayloadEncoder::write(const PlannedChunk& chunk, std::span<std::byte> payload) const {
+  if (chunk.type == kBaseChunk)
+    return geometry_->write_base(static_cast<Index>(chunk.element), payload);
+  if (chunk.type == kPacketChunk) return geometry_->write_packet(chunk.element, payload);
+  WriteIo io(payload);
+  fields(io, chunk);
+}
+
+}  // namespace pstrips::inline formats

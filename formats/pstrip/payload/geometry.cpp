@@ -1,0 +1,22 @@
+#include "formats/pstrip/payload/geometry.h"
+
+#include "formats/pstrip/payload/plain/plain.h"
+
+namespace pstrips::inline formats {
+namespace {
+
+struct ProfileCodec {
+  Profile profile;
+  const GeometryCodec& (*codec)();
+};
+constexpr ProfileCodec kCodecs[] = {{Profile::plain, plain_codec}};
+static_assert(std::ranges::equal(kCodecs, kProfiles, {}, &ProfileCodec::profile,
+                                 &ProfileName::profile));
+
+}  // namespace
+
+const GeometryCodec& codec_of(Profile profile) {
+  return std::ranges::find(kCodecs, profile, &ProfileCodec::profile)->codec();
+}
+
+}  // namespace pstrips::inline formats

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "formats/pstrip/payload/geometry.h"
+
+namespace pstrips::inline formats {
+
+/// Fixed-width, aligned arrays that can be used where they stand. [spec/container.md §7]
+const GeometryCodec& plain_codec();
+
+}  // namespace pstrips::inline formats

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/progressive_strips.h"
+
+namespace pstrips::inline formats {
+
+// What lists of a model must satisfy, one place a demand: a reader stops at the first element that
+// breaks it, a validator visits them all. `visit(i)` gets the number of such an element and returns
+// whether to go on; the functions return whether no element was visited.
+
+/// Keeps every sum of array sizes within 64 bits. [spec/model.md M-006]
+inline constexpr std::size_t kMaxAttributes = 1024;
+
+/// Elements that are `end` or more.
+template <class Visit>
+bool all_below(std::span<const Index> list, std::uint64_t end, Visit&& visit) {
+  bool holds = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] < end) continue;
+    holds = false;
+    if (!visit(i)) break;
+  }
+  return holds;
+}
+
+/// Elements that are out of place in bounds of runs over `size` items: from 0, never falling, to
+/// `size`. No bounds at all are the bounds of no items.
+template <class Visit>
+bool are_bounds(std::span<const Index> first, std::size_t size, Visit&& visit) {
+  if (first.empty() && size != 0) {
+    visit(std::size_t{0});
+    return false;
+  }
+  bool holds = true;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const bool starts = i > 0 || first[0] == 0;
+    const bool ends = i + 1 < first.size() || first[i] == size;
+    if (starts && ends && (i == 0 || first[i] >= first[i - 1])) continue;
+    holds = false;
+    if (!visit(i)) break;
+  }
+  return holds;
+}
+
+/// Elements that are past the end or stand a second time. Precondition: list.size() == size.
+template <class Visit>
+bool is_permutation(std::span<const Index> list, std::size_t size, Visit&& visit) {
+  std::vector<bool> named(size);
+  bool holds = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] < size && !named[list[i]]) {
+      named[list[i]] = true;
+      continue;
+    }
+    holds = false;
+    if (!visit(i)) break;
+  }
+  return holds;
+}
+
+/// Elements below `end` that stand a second time.
+template <class Visit>
+bool all_differ(std::span<const Index> list, std::size_t end, Visit&& visit) {
+  std::vector<bool> named(list.empty() ? 0 : end);
+  bool holds = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i] >= end) continue;
+    if (!named[list[i]]) {
+      named[list[i]] = true;
+      continue;
+    }
+    holds = false;
+    if (!visit(i)) break;
+  }
+  return holds;
+}
+
+/// Corners of a face of the decoded mesh: triangles of the map first, then explicit faces.
+/// Precondition: the bounds of the table hold.
+inline Index corners_of_face(const FaceTable& faces, std::size_t triangles, std::size_t face) {
+  if (face < triangles || face - triangles >= faces.count()) return 3;
+  return faces.first[face - triangles + 1] - faces.first[face - triangles];
+}
+
+/// Whether a rotation names a corner; a face without corners has rotation 0.
+constexpr bool is_rotation(std::uint8_t rotation, Index corners) {
+  return rotation < std::max<Index>(corners, 1);
+}
+
+/// Length of the index map as the groups have it.
+inline std::uint64_t sum_of_group_entries(const ProgressiveMesh& mesh) {
+  std::uint64_t sum = 0;
+  for (const Index n : mesh.group_entries) sum += n;
+  return sum;
+}
+
+}  // namespace pstrips::inline formats

@@ -1,0 +1,102 @@
+#include "formats/pstrip/payload/records.h"
+
+#include <algorithm>
+
+namespace pstrips::inline formats {
+
+using namespace layout;
+
+namespace {
+
+bool is_row_of(const IndexRow* row, const Chunk& chunk) {
+  return row != nullptr && row->offset == chunk.offset && row->bytes == chunk.bytes();
+}
+
+/// One row of PIDX that is `least` bytes long or more.
+Fault fault_of_row(const IndexRow& row, const FileHeader& header, std::uint64_t least) {
+  if (row.mesh >= header.meshes) return Fault::row_contents;
+  const bool is_inside = row.bytes >= chunk_bytes(least) && row.bytes <= header.file_bytes &&
+                         row.offset <= header.file_bytes - row.bytes;
+  return is_inside ? Fault::none : Fault::row_chunk;
+}
+
+}  // namespace
+
+Fault fault_of_totals(const FileHeader& header, std::span<const MeshCounts> meshes) {
+  const bool hold = std::ranges::all_of(
+      kTotals, [&](const Total& total) { return header.*total.total == sum_of(total, meshes); });
+  return hold ? Fault::none : Fault::totals;
+}
+
+Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header,
+                    std::span<const MeshCounts> meshes, const Chunk& chunk,
+                    const GeometryCodec& codec) {
+  if (rows.size() != std::uint64_t{header.meshes} + header.packets) return Fault::row_count;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool is_base = i < header.meshes;
+    const std::uint64_t least = is_base ? codec.min_base_bytes() : codec.min_packet_bytes();
+    if (const Fault fault = fault_of_row(rows[i], header, least); fault != Fault::none)
+      return fault;
+    if (!is_base) continue;
+    if (rows[i].mesh != i || rows[i].vsplits != 0) return Fault::row_contents;
+    if (rows[i].vertices != meshes[i].base_vertices) return Fault::row_vertices;
+  }
+  if (header.meshes == 0 && chunk.offset + chunk.bytes() != header.base_end) return Fault::base_end;
+  return Fault::none;
+}
+
+Fault fault_of_base_row(const IndexRow* row, const Chunk& chunk, bool is_last,
+                        std::uint64_t base_end) {
+  if (!is_row_of(row, chunk)) return Fault::row_chunk;
+  if (is_last && chunk.offset + chunk.bytes() != base_end) return Fault::base_end;
+  return Fault::none;
+}
+
+Fault fault_of_packet_row(const IndexRow* row, const Chunk& chunk, const PacketHead& head,
+                          const ProgressiveMesh& mesh, const PacketStart& start) {
+  if (!is_row_of(row, chunk)) return Fault::row_chunk;
+  if (row->mesh != head.mesh || row->vsplits != head.vsplits) return Fault::row_contents;
+  if (head.vsplits > mesh.vertices - start.vertices) return Fault::vsplit_count;
+  if (head.wedges > mesh.wedges - start.wedges) return Fault::wedge_count;
+  if (row->vertices != start.vertices + head.vsplits) return Fault::row_vertices;
+  return Fault::none;
+}
+
+Fault complete_records(ProgressiveMesh& mesh, const PacketHead& head, const PacketStart& start) {
+  std::uint64_t wedges = 0, reassigned = 0, map_offsets = 0;
+  std::size_t wedge = start.offset_count;
+  for (std::size_t i = start.vsplit; i < mesh.vsplits.size(); ++i) {
+    Vsplit& split = mesh.vsplits[i];
+    if (mesh.single_wedges) split.wedges = 1;
+    wedges += split.wedges;
+    reassigned += split.reassigned;
+    if (wedges > head.wedges) break;
+    std::uint64_t of_record = 0;
+    for (const std::size_t end = wedge + split.wedges; wedge < end; ++wedge)
+      of_record += mesh.wedge_offset_counts[wedge];
+    map_offsets += of_record;
+    split.map_offsets = static_cast<Index>(std::min<std::uint64_t>(of_record, kNone));
+  }
+  if (wedges != head.wedges || reassigned != head.reassigned) return Fault::packet_wedges;
+  return map_offsets == head.map_offsets ? Fault::none : Fault::packet_offsets;
+}
+
+Fault fault_of_ends(std::span<const PacketStart> reached, std::span<const ProgressiveMesh> meshes) {
+  for (std::size_t m = 0; m < reached.size(); ++m)
+    if (reached[m].vertices != meshes[m].vertices || reached[m].wedges != meshes[m].wedges)
+      return Fault::vsplits_missing;
+  return Fault::none;
+}
+
+void cut_back(ProgressiveMesh& mesh, const PacketStart& to) {
+  mesh.vsplits.resize(to.vsplit);
+  mesh.wedge_offset_counts.resize(to.offset_count);
+  mesh.reassigned.resize(to.reassigned);
+  mesh.map_offsets.resize(to.map_offset);
+  mesh.position.data.resize(to.vertices * mesh.position.element_bytes());
+  if (mesh.placement == Placement::optimal)
+    mesh.parent_position.resize(to.vsplit * mesh.position.element_bytes());
+  for (Attribute& a : mesh.wedge_attributes) a.data.resize(to.wedges * a.element_bytes());
+}
+
+}  // namespace pstrips::inline formats
