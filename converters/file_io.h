@@ -25,11 +25,12 @@ struct OutputName {
 };
 OutputName output_name(const std::string& path, FileFormat format);
 
-/// Files in memory, the named one first.
+/// The files of an output, the named one first.
 struct FileSet {
   struct File {
     std::string path;
     Bytes bytes;
+    WriteBytes write = {};  ///< when set, instead of `bytes`
   };
   std::vector<File> files;
   std::vector<std::string> notes;
@@ -39,6 +40,7 @@ Result<FileSet> make_ply(const Model& model, const OutputName& name, const SaveO
 Result<FileSet> make_obj(const Model& model, const OutputName& name, const SaveOptions& options);
 Result<FileSet> make_gltf(const Model& model, const OutputName& name, const SaveOptions& options);
 Result<FileSet> make_glb(const Model& model, const OutputName& name, const SaveOptions& options);
+/// The strips outlive the set.
 Result<FileSet> make_pstrip(const ProgressiveStrips& strips, const OutputName& name);
 Result<FileSet> make_pstripx(const ProgressiveStrips& strips, const OutputName& name);
 Result<FileSet> make_pm(const ProgressiveStrips& strips, const OutputName& name);

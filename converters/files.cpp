@@ -12,7 +12,7 @@ namespace {
 // A companion that another file stands in the way of, unless it is the same file.
 Result<void> check_companions(const FileSet& set) {
   for (std::size_t i = 1; i < set.files.size(); ++i) {
-    const auto& [path, bytes] = set.files[i];
+    const auto& [path, bytes, write] = set.files[i];
     if (!std::filesystem::exists(path)) continue;
     const bool is_file = std::filesystem::is_regular_file(path);
     const auto there = is_file ? read_file(path) : Result<FileBytes>();
@@ -23,6 +23,27 @@ Result<void> check_companions(const FileSet& set) {
   return {};
 }
 
+// Passes on what is written and counts it.
+class CountingSink final : public ByteSink {
+ public:
+  CountingSink(ByteSink& out, std::uint64_t& bytes) : out_(out), bytes_(bytes) {}
+  Result<void> write(ByteView bytes) override {
+    bytes_ += bytes.size();
+    return out_.write(bytes);
+  }
+
+ private:
+  ByteSink& out_;
+  std::uint64_t& bytes_;
+};
+
+WriteBytes counted(const WriteBytes& write, std::uint64_t& bytes) {
+  return [&write, &bytes](ByteSink& out) {
+    CountingSink counting(out, bytes);
+    return write(counting);
+  };
+}
+
 Result<SavedFiles> write(Result<FileSet> set, bool replace_companions) {
   if (!set) return tl::unexpected(set.error());
   if (!replace_companions)
@@ -30,9 +51,11 @@ Result<SavedFiles> write(Result<FileSet> set, bool replace_companions) {
   SavedFiles out;
   out.notes = std::move(set->notes);
   std::vector<OutputFile> views;
-  for (const auto& [path, bytes] : set->files) {
-    views.push_back({path, bytes});
-    out.files.push_back({path, bytes.size()});
+  for (const FileSet::File& file : set->files) out.files.push_back({file.path, file.bytes.size()});
+  for (std::size_t i = 0; i < set->files.size(); ++i) {
+    const FileSet::File& file = set->files[i];
+    OutputFile& view = views.emplace_back(OutputFile{file.path, file.bytes});
+    if (file.write) view.write = counted(file.write, out.files[i].bytes);
   }
   if (auto done = write_files(views); !done) return tl::unexpected(done.error());
   return out;

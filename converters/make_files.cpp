@@ -115,9 +115,9 @@ Result<FileSet> make_glb(const Model& model, const OutputName& name, const SaveO
 }
 
 Result<FileSet> make_pstrip(const ProgressiveStrips& strips, const OutputName& name) {
-  auto bytes = write_binary(strips);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return one_file(name, std::move(bytes).value());
+  FileSet out = one_file(name, {});
+  out.files[0].write = [&strips](ByteSink& sink) { return write_binary(strips, sink); };
+  return out;
 }
 
 Result<FileSet> make_pstripx(const ProgressiveStrips& strips, const OutputName& name) {

@@ -63,6 +63,22 @@ Result<void> write_all(int fd, ByteView bytes, const std::filesystem::path& path
   return {};
 }
 
+class DescriptorSink final : public ByteSink {
+ public:
+  DescriptorSink(int fd, const std::filesystem::path& path) : fd_(fd), path_(path) {}
+  Result<void> write(ByteView bytes) override { return write_all(fd_, bytes, path_); }
+
+ private:
+  int fd_;
+  const std::filesystem::path& path_;
+};
+
+Result<void> write_to(int fd, const OutputFile& file, const std::filesystem::path& path) {
+  if (!file.write) return write_all(fd, file.bytes, path);
+  DescriptorSink sink(fd, path);
+  return file.write(sink);
+}
+
 // Names of temporary files under way, where a signal handler can reach them.
 constexpr std::size_t kMaxNamed = 64;
 std::array<std::array<char, PATH_MAX>, kMaxNamed> temporary_names;
@@ -207,12 +223,12 @@ Result<void> write_files(const std::vector<OutputFile>& files) {
         return fail(ErrorCode::io, "is a folder", kNoOffset, file.path.string());
       const Descriptor device(::open(file.path.c_str(), O_WRONLY | O_CLOEXEC));
       if (device.get() < 0) return io_error(file.path, "cannot open");
-      if (auto done = write_all(device.get(), file.bytes, file.path); !done) return done;
+      if (auto done = write_to(device.get(), file, file.path); !done) return done;
       continue;
     }
     auto temporary = TemporaryFile::create(file.path);
     if (!temporary) return tl::unexpected(temporary.error());
-    if (auto done = write_all(temporary->fd(), file.bytes, file.path); !done) return done;
+    if (auto done = write_to(temporary->fd(), file, file.path); !done) return done;
     set_usual_mode(temporary->fd(), file.path);
     if (!temporary->close()) return io_error(file.path, "cannot write");
     written.emplace_back(std::move(temporary).value(), &file);
@@ -221,7 +237,7 @@ Result<void> write_files(const std::vector<OutputFile>& files) {
     if (!temporary.rename_to(file->path)) return io_error(file->path, "cannot rename");
   for (const OutputFile& file : files)
     if (file.path == "-")
-      if (auto done = write_all(1, file.bytes, "standard output"); !done) return done;
+      if (auto done = write_to(1, file, "standard output"); !done) return done;
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/byte_sink.h"
 #include "core/bytes.h"
 #include "core/result.h"
 
@@ -44,16 +45,20 @@ Result<FileBytes> read_file(const std::filesystem::path& path,
 /// folder; the reader sees to that. A file that is not there is ErrorCode::io.
 using ReadFile = std::function<Result<Bytes>(const std::string& relative_path)>;
 
-/// A file that is to be written.
+/// Writes the bytes of a file to a sink, piece by piece.
+using WriteBytes = std::function<Result<void>(ByteSink&)>;
+
+/// A file that is to be written: its bytes, or what writes them.
 struct OutputFile {
   std::filesystem::path path;
   ByteView bytes;
+  WriteBytes write = {};  ///< when set, instead of `bytes`
 };
 
 /// Writes all files or none: each to a temporary file beside its path first, then all are renamed.
 /// "-" is standard output, written last. Leaves no temporary file behind, whatever fails.
 ///
-/// errors  io with the path and the system's words
+/// errors  io with the path and the system's words; those of OutputFile::write
 Result<void> write_files(const std::vector<OutputFile>& files);
 
 /// Whether write_files() could write there now, found out before the work that makes the bytes: the

@@ -53,6 +53,25 @@ TEST_F(Files, AFailedWriteKeepsWhatWasThere) {
   EXPECT_EQ(count(), 1u);
 }
 
+TEST_F(Files, AreWrittenPieceByPiece) {
+  const auto pieces = [](ByteSink& out) -> Result<void> {
+    if (auto done = out.write(as_bytes("ab")); !done) return done;
+    return out.write(as_bytes("c"));
+  };
+  ASSERT_TRUE(write_files({{dir_ / "a", {}, pieces}}));
+  EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), "abc");
+
+  const auto stops = [](ByteSink& out) -> Result<void> {
+    if (auto done = out.write(as_bytes("x")); !done) return done;
+    return fail(ErrorCode::over_limit, "too much");
+  };
+  const auto done = write_files({{dir_ / "a", {}, stops}});
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().code, ErrorCode::over_limit);
+  EXPECT_EQ(as_text(read_file(dir_ / "a")->view()), "abc") << "what was there stays";
+  EXPECT_EQ(count(), 1u);
+}
+
 TEST_F(Files, KeepTheirPermissions) {
   ASSERT_TRUE(write_files({{dir_ / "a", as_bytes("old")}}));
   std::filesystem::permissions(dir_ / "a", std::filesystem::perms(0640));
