@@ -4,7 +4,7 @@
 
 namespace pstrips::inline validators::checks {
 
-// What the rules of the table ask. What each demands is the sentence of its row.
+// The checks of the rules in the table. What a rule demands is the sentence of its row.
 
 /// The faults of one kind that were noticed while the file was taken apart or replayed.
 template <Fault kFault>

@@ -10,7 +10,7 @@
 
 namespace pstrips::inline validators {
 
-/// What has to be there, and sound, before a rule can be asked.
+/// What has to be there, and sound, before a rule can be run.
 enum class Stage : std::uint8_t {
   file,    ///< nothing: the rule is about how the file comes apart
   base,    ///< the model; the replay stands on these rules
@@ -28,14 +28,14 @@ class Findings {
 
   /// found  what stands there instead, as the end of a sentence; may be empty
   void add(const Where& where, std::string_view found = {});
-  /// This rule has been heard and the report keeps no more: a check over a long list may stop.
-  bool full() const { return heard_ && report_.full(); }
+  /// This rule has reported and the report keeps no more: a check over a long list may stop.
+  bool full() const { return reported_ && report_.full(); }
 
  private:
   const Document& doc_;
   const Rule& rule_;
   Report& report_;
-  bool heard_ = false;
+  bool reported_ = false;
 };
 
 /// One thing that the specification demands of a file.
@@ -59,8 +59,8 @@ const Rule* find_rule(std::string_view code);
 /// The page of the rule's clause, "spec/model.md".
 std::string page_of(const Rule& rule);
 
-/// What a person who meets the code wants to know: the sentence, the severity, the clause and what
-/// a decoder does. Empty when there is no such code.
+/// The code in sentences for people: what holds, the severity, the clause and what a decoder does.
+/// Empty when there is no such code.
 std::string explain(std::string_view code);
 
 /// The table as a page of the specification, spec/rules.md.

@@ -8,14 +8,14 @@
 namespace pstrips::inline validators {
 namespace {
 
-void ask(Stage stage, const Document& doc, const ValidateOptions& options, Report& report) {
+void run_rules(Stage stage, const Document& doc, const ValidateOptions& options, Report& report) {
   for (const Rule& rule : rules()) {
     if (rule.stage != stage || std::ranges::find(options.ignore, rule.code) != options.ignore.end())
       continue;
-    Rule asked = rule;
+    Rule applied = rule;
     if (options.warnings_as_errors && rule.severity == Severity::warning)
-      asked.severity = Severity::error;
-    Findings findings(doc, asked, report);
+      applied.severity = Severity::error;
+    Findings findings(doc, applied, report);
     rule.check(doc, findings);
   }
 }
@@ -23,14 +23,14 @@ void ask(Stage stage, const Document& doc, const ValidateOptions& options, Repor
 /// Whether every rule of the stage holds, ignored ones too: later steps stand on them.
 bool holds(Stage stage, const Document& doc) {
   Report report;
-  ask(stage, doc, {}, report);
+  run_rules(stage, doc, {}, report);
   return report.errors() == 0;
 }
 
 }  // namespace
 
 void Findings::add(const Where& where, std::string_view found) {
-  heard_ = true;
+  reported_ = true;
   const Severity severity = rule_.severity;
   Finding finding{rule_.code, severity, rule_.clause, std::string(rule_.holds), kNoOffset, {}};
   if (!found.empty()) finding.message.append(" Found: ").append(found).append(".");
@@ -62,13 +62,13 @@ Report validate(ByteView file, const ValidateOptions& options) {
   Report report(options.max_findings);
   Document doc =
       looks_like_xml(file) ? open_xml(file, options.limits) : open_binary(file, options.limits);
-  ask(Stage::file, doc, options, report);
+  run_rules(Stage::file, doc, options, report);
   if (doc.depth < Depth::model) return report;
-  ask(Stage::base, doc, options, report);
-  ask(Stage::model, doc, options, report);
+  run_rules(Stage::base, doc, options, report);
+  run_rules(Stage::model, doc, options, report);
   if (!holds(Stage::base, doc)) return report;
   replay_all(doc);
-  ask(Stage::replay, doc, options, report);
+  run_rules(Stage::replay, doc, options, report);
   return report;
 }
 

@@ -34,7 +34,7 @@ namespace pstrips::inline formats {
 ///
 /// Ascii rows are lines: a row of too few or too many values is corrupt. "nan", "inf" (any case,
 /// signed), "nan(0x…)" with a payload and 1.#INF, 1.#QNAN are read. A file cut inside the last
-/// number of an ascii body cannot be told from a whole one without its final newline.
+/// number of an ascii body looks like a whole one without its final newline.
 Result<Model> read_ply(ByteView file, const Limits& limits = {});
 
 struct PlyWriteOptions {

@@ -46,7 +46,7 @@ class BodyReader {
   BodyReader(ByteView file, std::uint64_t body, Encoding encoding, const BodyLimits& limits,
              unsigned threads, std::size_t run_bytes);
 
-  /// Whether the rows can be there at all; asked before a sink is made for them.
+  /// Whether the rows can be there at all. Called before a sink is made for them.
   /// Errors: truncated. After it, rows × bytes of a row cannot overflow.
   Result<void> expect(const Element& element) const;
 

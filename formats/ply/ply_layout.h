@@ -36,7 +36,7 @@ struct Layout {
   bool has(Role role) const;
 };
 
-/// Reads the names. Both are pure functions of the header, so that a writer can ask what a reader
+/// Reads the names. Both depend on the header alone, so that a writer can find out what a reader
 /// will make of its words. Cost O(n log n).
 Layout vertex_layout(const Element& vertex, bool faces_have_texcoords);
 Layout face_layout(const Element& face);

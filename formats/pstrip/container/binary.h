@@ -37,7 +37,7 @@ enum class ReadMode : std::uint8_t {
 };
 
 /// Reads a file. What it returns satisfies `check` (formats/pstrip/payload/check.h): every index is
-/// in range, so that a decoder may follow it without asking; what a validator must still ask is
+/// in range, so that a decoder may follow it without a check. A validator has still to check
 /// whether the records mean what they say.
 ///
 /// errors  truncated before the end (prefix mode: before the last BASE), corrupt, unsupported

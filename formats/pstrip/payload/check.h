@@ -7,7 +7,7 @@
 namespace pstrips::inline formats {
 
 // What every reader of progressive strips checks, so that whoever works on what it returned may
-// follow each index without asking. [spec/model.md, spec/vsplit.md]
+// follow each index without a check of its own. [spec/model.md, spec/vsplit.md]
 
 /// Where a packet starts in the flat lists of its mesh, and, after the last one, where they end.
 struct PacketStart {

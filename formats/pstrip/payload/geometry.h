@@ -30,7 +30,7 @@ struct PacketHead {
 };
 
 /// Reads the geometry of one file, chunk by chunk in file order, so that it may keep a state for
-/// each mesh. A head is read first; the caller judges it before it asks for the rest.
+/// each mesh. A head is read first; the caller judges it before it reads the rest.
 ///
 /// What breaks a demand goes to the ReadIo; then the functions that return bool return false, and
 /// the caller takes back what the chunk brought.

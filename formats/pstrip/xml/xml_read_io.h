@@ -93,7 +93,7 @@ class XmlReadIo : public XmlReadAttributes {
 
   /// This element is the part of the model with the path, which parts below go on.
   void stands_for(std::string path);
-  /// Where to note the places of a list's items; null when nobody wants them.
+  /// Where to note the places of a list's items; null when they are not noted.
   std::vector<Index>* item_places(const char* part);
   /// The item that a part names by its attribute; past the end only with an error.
   Index item_of_part(const char* attribute, std::size_t items, Fault past_end);
