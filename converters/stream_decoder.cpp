@@ -34,9 +34,10 @@ StreamDecoder::Totals StreamDecoder::totals() const {
 }
 
 bool StreamDecoder::update() {
-  std::size_t filtered = 0;
-  for (DisplayLevel& level : levels_) filtered += level.update();
-  return filtered > 0;
+  if (!now_ || updated_to_ == packets_) return false;
+  for (DisplayLevel& level : levels_) level.update();
+  updated_to_ = packets_;
+  return true;
 }
 
 Result<Model> StreamDecoder::model() const {

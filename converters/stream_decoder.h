@@ -47,7 +47,8 @@ class StreamDecoder {
   };
   Totals totals() const;
 
-  /// Filters the strips rewritten since the last call; false when there were none.
+  /// Filters the strips that have changed since the last call. True when there is something new to
+  /// draw: once there is a base, and after each packet.
   bool update();
   /// The level of a mesh and its display strips as of the last update().
   /// Precondition: has_base().
@@ -63,6 +64,7 @@ class StreamDecoder {
   std::deque<DisplayLevel> levels_;  // they do not move
   std::optional<SceneLevel> now_;    // from the last base on
   std::size_t packets_ = 0;
+  std::optional<std::size_t> updated_to_;  // packets; nothing before there is a base
 };
 
 }  // namespace pstrips::inline converters

@@ -158,6 +158,33 @@ TEST(StreamDecoder, ShowsTheSameWhateverThePieces) {
   }
 }
 
+// What a viewer does: draw whenever there is something new.
+TEST(StreamDecoder, UpdatesOnceForTheBaseAndOnceForEachPacket) {
+  const Sample s = small_sample();
+  StreamDecoder decoder;
+  std::size_t drawn = 0;
+  for (const std::byte& byte : s.file) {
+    ASSERT_TRUE(decoder.feed({&byte, 1}));
+    if (!decoder.update()) continue;
+    ASSERT_EQ(decoder.packets(), drawn++);
+    EXPECT_FALSE(decoder.update());
+  }
+  EXPECT_EQ(drawn, s.ends.size());
+}
+
+TEST(StreamDecoder, UpdatesForAFileWithoutPackets) {
+  ProgressiveStrips base = cut(small_sample().strips, 0);
+  ASSERT_TRUE(base.packets.empty());
+  const Bytes file = write_binary(base).value();
+  StreamDecoder decoder;
+  EXPECT_FALSE(decoder.update());
+  ASSERT_TRUE(decoder.feed(file));
+  EXPECT_TRUE(decoder.complete());
+  EXPECT_TRUE(decoder.update());
+  EXPECT_GT(decoder.mesh(0).cost().vertices_sent, 0u);
+  EXPECT_FALSE(decoder.update());
+}
+
 TEST(StreamDecoder, FiltersOnlyWhatAPacketRewrote) {
   Model model;
   model.meshes = {test::grid(60)};
