@@ -1,13 +1,12 @@
-// Encodes a tetrahedron, writes and reads the file, and wants the same mesh back.
+// Encodes a tetrahedron, writes and reads the file, and wants the same mesh back; the file is kept.
+
+#include <pstrips/pstrips.h>
 
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 
-#include "converters/decode.h"
-#include "converters/encode.h"
-#include "formats/pstrip/container/binary.h"
-
-int main() {
+int main(int argc, char** argv) {
   const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   pstrips::Model model;
   pstrips::Mesh& mesh = model.meshes.emplace_back();
@@ -23,6 +22,9 @@ int main() {
   const auto read = pstrips::read_binary(*file);
   if (!read) return std::printf("read: %s\n", read.error().message.c_str()), 1;
   const bool same = pstrips::decode(*read)->meshes == model.meshes;
+  if (argc > 1)
+    std::ofstream(argv[1], std::ios::binary)
+        .write(reinterpret_cast<const char*>(file->data()), static_cast<std::streamsize>(file->size()));
   std::printf("%zu bytes, %s\n", file->size(), same ? "exact" : "different");
   return same ? 0 : 1;
 }

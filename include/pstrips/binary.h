@@ -1,0 +1,5 @@
+#pragma once
+
+// The binary variant, read and written whole.
+
+#include "formats/pstrip/container/binary.h"

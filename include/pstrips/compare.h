@@ -1,0 +1,5 @@
+#pragma once
+
+// How far apart two models are.
+
+#include "converters/compare.h"

@@ -1,0 +1,5 @@
+#pragma once
+
+// Meshes to progressive strips.
+
+#include "converters/encode.h"

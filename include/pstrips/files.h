@@ -1,0 +1,5 @@
+#pragma once
+
+// Files of every format, by name or by content.
+
+#include "converters/files.h"
