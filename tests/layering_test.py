@@ -15,6 +15,7 @@ MAY_INCLUDE = {
     # The public headers, and what sees nothing but them.
     "include": {"core", "codecs", "formats", "converters", "validators", "include"},
     "examples": {"include"},
+    "web": {"core", "codecs", "formats", "converters", "web"},
     "peers": {"core", "codecs", "peers"},
     "cli": {"core", "codecs", "formats", "converters", "validators", "peers", "cli"},
 }
