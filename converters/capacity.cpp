@@ -5,7 +5,7 @@
 namespace pstrips::inline converters {
 namespace {
 
-// Fitted to peaks of the whole program, free placement with the memoryless metric, in bytes a
+// Fitted to peaks of the whole program, optimal placement with the memoryless metric, in bytes a
 // triangle: a grid 202, with normals and texture coordinates 287, triangles that share no vertex
 // 668. Subset placement takes 132, 201 and 435.
 constexpr std::uint64_t kBytesATriangle = 120;

@@ -17,6 +17,8 @@
 namespace pstrips::inline codecs {
 namespace {
 
+// A new algorithm takes three files: its source, a row here, and its name in CMakeLists.txt. A
+// function that nothing else calls is declared beside the row instead of in a header.
 constexpr NamedStripifier kStripifiers[] = {
     {.name = "best",
      .source = "ours, codecs/stripify/best.h",

@@ -83,7 +83,8 @@ class Recorder {
   const CollapseSequence& sequence_;
   const bool moves_kept_;
   const bool symbols_;
-  Attribute moved_;  // with free placement: where vertices stand, or stood when they were removed
+  Attribute
+      moved_;  // with optimal placement: where vertices stand, or stood when they were removed
   std::vector<Entry> entries_;
   std::vector<Index> wedge_vertex_;  // empty as long as wedge i is vertex i
   std::vector<Index> first_entry_;   // of each wedge that holds it itself; kNone, kRemoved

@@ -34,8 +34,8 @@ struct StripMap {
 /// Vertices that stand in no strip come last, as vsplits without a parent. A wedge that the
 /// sequence carries but no strip holds appears with its vertex instead.
 ///
-/// With free placement (the sequence has placements) each record says where its parent stood before
-/// the collapse, in the format of the mesh's positions, to which placements are rounded.
+/// With optimal placement (the sequence has placements) each record says where its parent stood
+/// before the collapse, in the format of the mesh's positions, to which placements are rounded.
 ///
 /// sequence  as simplify() makes it: each removed vertex once, with every wedge that stands at it
 /// cost      O(map + rewritten entries); deterministic

@@ -121,7 +121,7 @@ TEST(Encode, FreePlacementGivesBetterLevels) {
     }
     return sum / 6;
   };
-  EncodeOptions options = manners().back();  // free, memoryless: keeps the volume
+  EncodeOptions options = manners().back();  // optimal, memoryless: keeps the volume
   options.base_share = 1;
   const double whole = volume_at_base(options);
   options.base_share = 0.05;

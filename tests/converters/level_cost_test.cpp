@@ -10,6 +10,7 @@
 #include "codecs/stripify/random.h"
 #include "converters/encode.h"
 #include "converters/inspect.h"
+#include "tests/support/growth.h"
 #include "tests/support/meshes.h"
 
 namespace pstrips {
@@ -60,16 +61,28 @@ RC_GTEST_PROP(LevelCost, IsThatOfTheSideThatVanishesFirst, ()) {
             by_replay(triangles, vertices, collapses, 7));
 }
 
-// A chain in which each vertex goes to the next: what follows it link by link takes minutes.
-TEST(LevelCost, StaysFastOnLongChains) {
-  constexpr Index kVertices = 400'000;
+// A chain in which each vertex goes to the next: what follows it link by link is quadratic.
+struct Chain {
+  Index vertices = 0;
   std::vector<Index> triangles;
   std::vector<Collapse> collapses;
-  for (Index v = 0; v + 2 < kVertices; ++v) {
-    triangles.insert(triangles.end(), {v, v + 1, v + 2});
-    collapses.push_back(collapse(v, v + 1));
+};
+
+Chain chain(Index vertices) {
+  Chain out{vertices, {}, {}};
+  for (Index v = 0; v + 2 < vertices; ++v) {
+    out.triangles.insert(out.triangles.end(), {v, v + 1, v + 2});
+    out.collapses.push_back(collapse(v, v + 1));
   }
-  const auto cost = level_step_cost(triangles, kVertices, collapses, 1);
+  return out;
+}
+
+TEST(LevelCost, IsLinearOnLongChains) {
+  const auto run = [](const Chain& c) {
+    return level_step_cost(c.triangles, c.vertices, c.collapses, 1);
+  };
+  EXPECT_TRUE(test::grows_linearly(100'000, chain, run));
+  const auto cost = run(chain(400'000));
   EXPECT_EQ(cost[0], 1);
   EXPECT_EQ(cost[3], 1);
   EXPECT_EQ(cost[4], 0);

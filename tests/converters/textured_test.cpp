@@ -61,8 +61,8 @@ struct Manner {
 constexpr Manner kManners[] = {
     {"subset, qem", Placement::subset, Metric::qem},
     {"subset, memoryless", Placement::subset, Metric::memoryless},
-    {"free, qem", Placement::optimal, Metric::qem},
-    {"free, memoryless", Placement::optimal, Metric::memoryless},
+    {"optimal, qem", Placement::optimal, Metric::qem},
+    {"optimal, memoryless", Placement::optimal, Metric::memoryless},
 };
 
 // In packets small enough to see many levels.
