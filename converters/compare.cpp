@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
-#include <numeric>
 
 #include "codecs/measure/measure.h"
 #include "codecs/triangulate/triangulate.h"
 #include "converters/merge.h"
+#include "core/equal_elements.h"
 #include "core/group_by.h"
 
 namespace pstrips::inline converters {
@@ -31,23 +30,11 @@ class RowTable {
     return rows_.data() + rows_.size() - width_;
   }
   Ids ids() const {
-    std::vector<Index> order(count_);
-    std::iota(order.begin(), order.end(), Index{0});
-    const auto compare = [&](Index a, Index b) {
-      return width_ == 0 ? 0 : std::memcmp(row(a), row(b), width_ * sizeof(double));
-    };
-    std::ranges::sort(order, [&](Index a, Index b) { return compare(a, b) < 0; });
-    Ids out(count_);
-    Index id = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (i > 0 && compare(order[i - 1], order[i]) != 0) ++id;
-      out[order[i]] = id;
-    }
-    return out;
+    if (width_ == 0) return Ids(count_, 0);
+    return first_equals(std::as_bytes(std::span(rows_)), width_ * sizeof(double), 0);
   }
 
  private:
-  const double* row(Index i) const { return rows_.data() + i * width_; }
   std::size_t width_;
   std::size_t count_ = 0;
   std::vector<double> rows_;

@@ -182,7 +182,8 @@ int main(int argc, char** argv) {
   fmt::print(
       "Where the figures differ: the paper strips with STRIPE and does not say how it breaks ties "
       "or\n"
-      "guards collapses; ours strips with the SGI heuristics named above, joins a symbol also to "
+      "constrains collapses; ours strips with the SGI heuristics named above, joins a symbol also "
+      "to "
       "an\n"
       "entry that the same collapse has just rewritten (lower u), and its STSS drops repeated "
       "pairs\n"

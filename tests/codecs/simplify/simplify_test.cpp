@@ -480,7 +480,7 @@ TEST(Simplify, TurnsNoTriangleOverInTheTexture) {
   }
 }
 
-TEST(Simplify, KeepsTopologyWhileGuardsHold) {
+TEST(Simplify, KeepsTopologyWhileConstraintsHold) {
   const Source source = source_of(test::torus(60, 30));
   for (const Manner& manner : kManners) {
     SCOPED_TRACE(manner.name);
@@ -493,7 +493,7 @@ TEST(Simplify, KeepsTopologyWhileGuardsHold) {
   }
 }
 
-TEST(Simplify, CountsWhatGuardsRefuse) {
+TEST(Simplify, CountsWhatConstraintsRefuse) {
   // A hole in a plane costs nothing to close, so the constraint of borders decides.
   Source source = flat_grid(20, 1);
   source.triangles.erase(source.triangles.begin() + 3 * 300, source.triangles.begin() + 3 * 302);
