@@ -1,7 +1,7 @@
 #include "core/base64.h"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cstdint>
 
 namespace pstrips::inline core {
@@ -25,10 +25,8 @@ bool remove_padding(std::string_view& digits) {
   return is_filled;
 }
 
-}  // namespace
-
-std::array<char, 4> base64_digits(ByteView bytes) {
-  assert(!bytes.empty() && bytes.size() <= 3);
+// The digits of one to three bytes.
+std::array<char, 4> digits_of(ByteView bytes) {
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < 3; ++k)
     bits = bits << 8 | (k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[k]) : 0);
@@ -38,11 +36,13 @@ std::array<char, 4> base64_digits(ByteView bytes) {
   return out;
 }
 
+}  // namespace
+
 std::string base64(ByteView bytes) {
   std::string out;
   out.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto digits = base64_digits(bytes.subspan(i, std::min<std::size_t>(3, bytes.size() - i)));
+    const auto digits = digits_of(bytes.subspan(i, std::min<std::size_t>(3, bytes.size() - i)));
     out.append(digits.data(), digits.size());
   }
   return out;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,8 +10,7 @@ namespace pstrips::inline core {
 
 // Bytes as text. [RFC4648 §4]
 
-/// The four digits of one to three bytes, "=" for those that are missing.
-std::array<char, 4> base64_digits(ByteView bytes);
+/// Four digits for three bytes, "=" for those that are missing at the end.
 std::string base64(ByteView bytes);
 
 enum class Base64 : std::uint8_t {

@@ -6,6 +6,14 @@
 
 namespace pstrips::inline core {
 
+/// Bytes of a UTF-8 character by its first one; 0 when none begins so.
+constexpr std::size_t utf8_length_announced(char first) {
+  const auto byte = static_cast<unsigned char>(first);
+  if (byte < 0x80) return 1;
+  if (byte < 0xc2 || byte > 0xf4) return 0;
+  return byte >= 0xf0 ? 4 : byte >= 0xe0 ? 3 : 2;
+}
+
 /// Bytes of the UTF-8 character that the text begins with: in the shortest form, no surrogate, at
 /// most U+10FFFF. 0 when there is none, so for an empty text, too. [RFC3629 §4]
 std::size_t utf8_length(std::string_view text);

@@ -116,7 +116,7 @@ Model with_double_positions() {
   Mesh mesh = test::cube(false);
   std::vector<double> numbers;
   for (std::size_t i = 0; i < 3 * std::size_t{mesh.vertex_count()}; ++i)
-    numbers.push_back(component(mesh.position, i / 3, i % 3) + 0.1);
+    numbers.push_back(component(mesh.position, i / 3, i % 3) + 1.0 / 3);
   const auto bytes = std::as_bytes(std::span(numbers));
   mesh.position.type = ComponentType::f64;
   mesh.position.data.assign(bytes.begin(), bytes.end());
@@ -163,14 +163,14 @@ const Probe kProbes[] = {
      [](const Model& m) { return !m.scene.nodes.empty() && m.scene.nodes[0].matrix[12] == 5; }},
     {Feature::materials,
      [] {
-       return with_material({.base_color = {1, 0, 0, 1}});
+       return with_material({.name = "red", .base_color = {1, 0, 0, 1}});
      },
      [](const Model& m) {
        return !m.scene.materials.empty() && m.scene.materials[0].base_color[1] == 0;
      }},
     {Feature::embedded_images,
      [] {
-       Model model = with_material({.base_color_image = 0});
+       Model model = with_material({.name = "textured", .base_color_image = 0});
        model.scene.images.push_back(
            {.name = "", .uri = "", .mime_type = "image/png", .data = Bytes(3)});
        return model;

@@ -1,6 +1,7 @@
 #include <tinyxml2.h>
 
 #include "core/fault_list.h"
+#include "core/text.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/xml/xml.h"
 #include "formats/pstrip/xml/xml_layout.h"
@@ -84,9 +85,7 @@ Result<ProgressiveStrips> read_xml_unchecked(ByteView document, const Limits& li
 }
 
 bool looks_like_xml(ByteView start) {
-  std::string_view text = as_text(start);
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return Tokens(text).next().starts_with('<');
+  return Tokens(without_utf8_mark(as_text(start))).next().starts_with('<');
 }
 
 }  // namespace pstrips::inline formats

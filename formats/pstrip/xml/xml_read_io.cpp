@@ -147,7 +147,7 @@ void XmlReadIo::hexadecimal(Bytes& bytes, std::size_t size) {
 }
 
 void XmlReadIo::base64(Bytes& bytes) {
-  std::optional<Bytes> parsed = parse_base64(own_text());
+  std::optional<Bytes> parsed = parse_base64_lines(own_text());
   if (demand(parsed.has_value(), Fault::xml_base64, "malformed base64")) bytes = std::move(*parsed);
 }
 

@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "core/fault_list.h"
+#include "core/text.h"
 #include "formats/pstrip/xml/xml_text.h"
 
 namespace pstrips::inline formats {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool is_name_start(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' || (c & 0x80);
@@ -23,7 +22,7 @@ class Scanner {
   Scanner(std::string_view text, const Limits& limits) : text_(text), limits_(limits) {}
 
   Result<XmlExtent> scan() {
-    if (rest().starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
+    at_ = text_.size() - without_utf8_mark(text_).size();
     constexpr std::string_view kDeclaration = "<?xml";
     if (rest().starts_with(kDeclaration))
       declaration();

@@ -1,7 +1,10 @@
 #include "formats/pstrip/xml/xml_text.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
+
+#include "core/base64.h"
+#include "core/text.h"
 
 namespace pstrips::inline formats {
 namespace {
@@ -10,15 +13,6 @@ constexpr char kHexDigits[] = "0123456789abcdef";
 
 unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
-}
-
-/// Bytes that the first byte of a UTF-8 sequence announces; 0 for one that cannot be first.
-std::size_t announced_bytes(unsigned first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xc2 && first < 0xe0) return 2;
-  if (first >= 0xe0 && first < 0xf0) return 3;
-  if (first >= 0xf0 && first < 0xf5) return 4;
-  return 0;
 }
 
 /// Appends the entity for a character that is markup.
@@ -54,37 +48,18 @@ int hex_value(char c) {
   return -1;
 }
 
-constexpr char kBase64[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-constexpr std::array<std::int8_t, 256> kBase64Values = [] {
-  std::array<std::int8_t, 256> values{};
-  values.fill(-1);
-  for (int i = 0; i < 64; ++i)
-    values[static_cast<unsigned char>(kBase64[i])] = static_cast<std::int8_t>(i);
-  return values;
-}();
-
 }  // namespace
 
 std::size_t character_bytes(std::string_view text) {
   if (text.empty()) return 0;
   const unsigned first = byte_at(text, 0);
   if (first < 0x80) return first >= 0x20 || is_xml_space(text[0]) ? 1 : 0;
-  const std::size_t size = announced_bytes(first);
-  if (size == 0 || text.size() < size) return 0;
-  unsigned code = first & (0xffu >> (size + 1));
-  for (std::size_t i = 1; i < size; ++i) {
-    if ((byte_at(text, i) & 0xc0) != 0x80) return 0;
-    code = code << 6 | (byte_at(text, i) & 0x3f);
-  }
-  constexpr unsigned kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xd800 && code < 0xe000;
-  if (code < kSmallest[size] || code > 0x10ffff || surrogate || (code & ~1u) == 0xfffe) return 0;
-  return size;
+  const bool is_no_character = text.starts_with("\xef\xbf\xbe") || text.starts_with("\xef\xbf\xbf");
+  return is_no_character ? 0 : utf8_length(text);
 }
 
 bool is_cut_character(std::string_view text) {
-  if (text.empty() || announced_bytes(byte_at(text, 0)) <= text.size()) return false;
+  if (text.empty() || utf8_length_announced(text[0]) <= text.size()) return false;
   return std::ranges::all_of(text.substr(1), [](char c) { return (c & 0xc0) == 0x80; });
 }
 
@@ -142,48 +117,19 @@ void write_content(TextWriter& out, ByteView bytes) {
     if (!write_entity(out, c)) out.character(c);
 }
 
-void write_base64(TextWriter& out, ByteView bytes) {
+void write_base64_lines(TextWriter& out, ByteView bytes) {
   constexpr std::size_t kLineBytes = 57;  // 76 characters
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    if (i > 0 && i % kLineBytes == 0) out.character('\n');
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned v = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      v = v << 8 | (k < n ? std::to_integer<unsigned>(bytes[i + k]) : 0u);
-    char quad[4] = {kBase64[v >> 18], kBase64[v >> 12 & 63], kBase64[v >> 6 & 63], kBase64[v & 63]};
-    for (std::size_t k = n + 1; k < 4; ++k) quad[k] = '=';
-    out.text({quad, 4});
+  for (std::size_t i = 0; i < bytes.size(); i += kLineBytes) {
+    if (i > 0) out.character('\n');
+    out.text(base64(bytes.subspan(i, std::min(kLineBytes, bytes.size() - i))));
   }
 }
 
-std::optional<Bytes> parse_base64(std::string_view text) {
-  Bytes out;
-  out.reserve(text.size() / 4 * 3);
-  unsigned value = 0;
-  int digits = 0, padding = 0;
-  bool ended = false;
-  for (const char c : text) {
-    if (is_xml_space(c)) continue;
-    if (ended) return std::nullopt;
-    const int v = kBase64Values[static_cast<unsigned char>(c)];
-    if (c == '=') {
-      ++padding;
-    } else if (v < 0 || padding > 0) {
-      return std::nullopt;
-    }
-    value = value << 6 | static_cast<unsigned>(std::max(v, 0));
-    if (++digits < 4) continue;
-    if (padding > 2) return std::nullopt;
-    for (int k = 0; k < 3 - padding; ++k)
-      out.push_back(static_cast<std::byte>(value >> (16 - 8 * k) & 0xff));
-    // Bits that padding cuts off must be zero: each value is written in one way only.
-    if (padding > 0 && (value & ((1u << (8 * padding)) - 1)) != 0) return std::nullopt;
-    value = 0;
-    digits = 0;
-    ended = padding > 0;
-  }
-  if (digits != 0) return std::nullopt;
-  return out;
+std::optional<Bytes> parse_base64_lines(std::string_view text) {
+  std::string digits;
+  digits.reserve(text.size());
+  std::ranges::copy_if(text, std::back_inserter(digits), [](char c) { return !is_xml_space(c); });
+  return parse_base64(digits);
 }
 
 }  // namespace pstrips::inline formats

@@ -33,8 +33,8 @@ bool fits_content(ByteView bytes);
 void write_content(TextWriter& out, ByteView bytes);
 
 /// Base64 [RFC4648 §4] with padding, in lines of 76 characters.
-void write_base64(TextWriter& out, ByteView bytes);
+void write_base64_lines(TextWriter& out, ByteView bytes);
 /// White space is skipped. Nothing when it is not what write_base64 could have written otherwise.
-std::optional<Bytes> parse_base64(std::string_view text);
+std::optional<Bytes> parse_base64_lines(std::string_view text);
 
 }  // namespace pstrips::inline formats

@@ -151,7 +151,7 @@ class XmlWriteIo {
   }
   void base64(ByteView bytes) {
     begin_text();
-    write_base64(out_, bytes);
+    write_base64_lines(out_, bytes);
   }
   void text(ByteView bytes) {
     begin_text();
