@@ -17,8 +17,7 @@
 namespace pstrips::inline codecs {
 namespace {
 
-// A new algorithm takes three files: its source, a row here, and its name in CMakeLists.txt. A
-// function that nothing else calls is declared beside the row instead of in a header.
+// A new algorithm takes three files: its header, its source, and a row here.
 constexpr NamedStripifier kStripifiers[] = {
     {.name = "best",
      .source = "ours, codecs/stripify/best.h",
