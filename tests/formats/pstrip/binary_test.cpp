@@ -311,50 +311,50 @@ struct BadField {
   ChunkType chunk;
   std::size_t at;  ///< in the payload of its first chunk
   std::uint32_t value;
-  ErrorCode code;
+  Fault fault;
 };
 
-TEST(Binary, RefusesBadFieldsWithCodeAndChunk) {
+TEST(Binary, RefusesBadFieldsAndSaysWhichDemandIsBroken) {
   const ProgressiveStrips strips =
       random_progressive(11, {.scene = true, .faces = true, .order = true, .digest = true});
   const BadField kRows[] = {
-      {"version", kHeaderChunk, 0, 2, ErrorCode::unsupported},
-      {"profile", kHeaderChunk, 4, 1, ErrorCode::unsupported},
-      {"flags", kHeaderChunk, 4, 0x10000, ErrorCode::unsupported},
-      {"more_meshes_than_chunks", kHeaderChunk, 8, 2, ErrorCode::corrupt},
-      {"meshes_over_limit", kHeaderChunk, 8, 0xffff'ffff, ErrorCode::over_limit},
-      {"vertices_over_limit", kHeaderChunk, 20, 1, ErrorCode::over_limit},
-      {"map_over_limit", kHeaderChunk, 52, 1, ErrorCode::over_limit},
-      {"memory_over_limit", kHeaderChunk, 68, 0x100, ErrorCode::over_limit},
-      {"vertex_total", kHeaderChunk, 16, 1, ErrorCode::corrupt},
-      {"name_longer_than_payload", kMeshChunk, 0, 0x7fff'ffff, ErrorCode::corrupt},
-      {"scene_nodes", kSceneChunk, 9, 0x7fff'ffff, ErrorCode::corrupt},
-      {"materials", kMaterialsChunk, 0, 0xffff'ffff, ErrorCode::corrupt},
-      {"rows", kIndexChunk, 0, 0xffff'ffff, ErrorCode::corrupt},
-      {"row_reserved", kIndexChunk, 4, 1, ErrorCode::corrupt},
-      {"row_offset", kIndexChunk, 8, 0, ErrorCode::corrupt},
-      {"row_bytes", kIndexChunk, 16, 8, ErrorCode::corrupt},
-      {"base_mesh", kBaseChunk, 0, 1, ErrorCode::corrupt},
-      {"base_vertices", kBaseChunk, 4, 0xffff'ff00, ErrorCode::corrupt},
-      {"base_map", kBaseChunk, 12, 0xffff'ff00, ErrorCode::corrupt},
-      {"packet_mesh", kPacketChunk, 0, 1, ErrorCode::corrupt},
-      {"packet_first", kPacketChunk, 4, 1, ErrorCode::corrupt},
-      {"packet_vsplits", kPacketChunk, 8, 0xffff'ffff, ErrorCode::corrupt},
-      {"packet_wedges", kPacketChunk, 12, 0xffff'ffff, ErrorCode::corrupt},
-      {"packet_carried", kPacketChunk, 16, 0xffff'ffff, ErrorCode::corrupt},
-      {"packet_offsets", kPacketChunk, 20, 0xffff'ffff, ErrorCode::corrupt},
-      {"packet_parent", kPacketChunk, 24, 0xffff'fff0, ErrorCode::corrupt},
-      {"faces_mesh", kFacesChunk, 0, 1, ErrorCode::corrupt},
-      {"faces_count", kFacesChunk, 4, 0xffff'ffff, ErrorCode::corrupt},
-      {"faces_corners", kFacesChunk, 8, 0xffff'ffff, ErrorCode::corrupt},
-      {"faces_replaced", kFacesChunk, 12, 0xffff'ffff, ErrorCode::corrupt},
-      {"faces_first", kFacesChunk, 16, 1, ErrorCode::corrupt},
-      {"order_mesh", kOrderChunk, 0, 9, ErrorCode::corrupt},
-      {"order_twice", kOrderChunk, 8, strips.meshes[0].order.vertex[1], ErrorCode::corrupt},
-      {"digest_mesh", kDigestChunk, 0, 1, ErrorCode::corrupt},
-      {"digest_algorithm", kDigestChunk, 4, 2, ErrorCode::unsupported},
-      {"image", kImageChunk, 0, 0, ErrorCode::corrupt},
-      {"foreign_key", kForeignChunk, 0, 0x7fff'ffff, ErrorCode::corrupt},
+      {"version", kHeaderChunk, 0, 2, Fault::version_unknown},
+      {"profile", kHeaderChunk, 4, 1, Fault::profile_unknown},
+      {"flags", kHeaderChunk, 4, 0x10000, Fault::flags_unknown},
+      {"more_meshes_than_chunks", kHeaderChunk, 8, 2, Fault::mesh_chunks},
+      {"meshes_over_limit", kHeaderChunk, 8, 0xffff'ffff, Fault::over_limit},
+      {"vertices_over_limit", kHeaderChunk, 20, 1, Fault::over_limit},
+      {"map_over_limit", kHeaderChunk, 52, 1, Fault::over_limit},
+      {"memory_over_limit", kHeaderChunk, 68, 0x100, Fault::over_limit},
+      {"vertex_total", kHeaderChunk, 16, 1, Fault::totals},
+      {"name_longer_than_payload", kMeshChunk, 0, 0x7fff'ffff, Fault::payload_length},
+      {"scene_nodes", kSceneChunk, 9, 0x7fff'ffff, Fault::payload_length},
+      {"materials", kMaterialsChunk, 0, 0xffff'ffff, Fault::payload_length},
+      {"rows", kIndexChunk, 0, 0xffff'ffff, Fault::payload_length},
+      {"row_reserved", kIndexChunk, 4, 1, Fault::reserved_not_zero},
+      {"row_offset", kIndexChunk, 8, 0, Fault::row_chunk},
+      {"row_bytes", kIndexChunk, 16, 8, Fault::row_chunk},
+      {"base_mesh", kBaseChunk, 0, 1, Fault::base_mesh},
+      {"base_vertices", kBaseChunk, 4, 0xffff'ff00, Fault::base_counts},
+      {"base_map", kBaseChunk, 12, 0xffff'ff00, Fault::base_counts},
+      {"packet_mesh", kPacketChunk, 0, 1, Fault::packet_mesh},
+      {"packet_first", kPacketChunk, 4, 1, Fault::packet_not_next},
+      {"packet_vsplits", kPacketChunk, 8, 0xffff'ffff, Fault::packet_single_wedges},
+      {"packet_wedges", kPacketChunk, 12, 0xffff'ffff, Fault::packet_single_wedges},
+      {"packet_reassigned", kPacketChunk, 16, 0xffff'ffff, Fault::packet_single_wedges},
+      {"packet_offsets", kPacketChunk, 20, 0xffff'ffff, Fault::payload_length},
+      {"packet_parent", kPacketChunk, 24, 0xffff'fff0, Fault::parent_not_there},
+      {"faces_mesh", kFacesChunk, 0, 1, Fault::faces_mesh},
+      {"faces_count", kFacesChunk, 4, 0xffff'ffff, Fault::face_count},
+      {"faces_corners", kFacesChunk, 8, 0xffff'ffff, Fault::payload_length},
+      {"faces_replaced", kFacesChunk, 12, 0xffff'ffff, Fault::face_count},
+      {"faces_first", kFacesChunk, 16, 1, Fault::face_bounds},
+      {"order_mesh", kOrderChunk, 0, 9, Fault::order_mesh},
+      {"order_twice", kOrderChunk, 8, strips.meshes[0].order.vertex[1], Fault::order_vertex},
+      {"digest_mesh", kDigestChunk, 0, 1, Fault::digest_mesh},
+      {"digest_algorithm", kDigestChunk, 4, 2, Fault::digest_unknown},
+      {"image", kImageChunk, 0, 0, Fault::image_data},
+      {"foreign_key", kForeignChunk, 0, 0x7fff'ffff, Fault::payload_length},
   };
   const Bytes file = write_binary(strips).value();
   for (const BadField& row : kRows) {
@@ -364,7 +364,8 @@ TEST(Binary, RefusesBadFieldsWithCodeAndChunk) {
     seal(bad);
     const auto read = read_binary(bad);
     ASSERT_FALSE(read);
-    EXPECT_EQ(read.error().code, row.code) << read.error().message;
+    EXPECT_EQ(read.error().fault, row.fault) << read.error().message;
+    EXPECT_EQ(read.error().code, code_of(row.fault));
     EXPECT_NE(read.error().offset, kNoOffset);
   }
 }
