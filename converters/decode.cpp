@@ -100,7 +100,7 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets) {
     Level level(progressive);
     level.refine(vsplits[m]);
     // A level that goes no further needs no records.
-    level.forget_symbols();
+    level.release_symbols();
     progressive.base_map = {};
     progressive.vsplits = {};
     progressive.wedge_offset_counts = {};

@@ -31,6 +31,28 @@ constexpr Index symbol_of(int distance) {
                             (distance < 0 ? distance : distance - 1));
 }
 
+/// Calls `visit(i)` for entry `at`, then for every entry whose chain of symbols leads there. The
+/// one walk against the direction of the symbols, whatever a map is stored in.
+///
+/// pending     scratch, so that no call allocates
+/// repeats     repeats(i, d): whether entry i is the symbol of distance d; also called for up to
+/// two
+///             entries before the map and behind it, which are none
+/// visit       false ends the walk
+/// cost        O(entries visited), each once: chains have no cycles
+template <class Repeats, class Visit>
+void for_each_follower(Index at, std::vector<Index>& pending, Repeats&& repeats, Visit&& visit) {
+  pending.clear();
+  while (visit(at)) {
+    for (const int d : {-2, -1, 1, 2})
+      if (const std::ptrdiff_t from = std::ptrdiff_t{at} - d; repeats(from, d))
+        pending.push_back(static_cast<Index>(from));
+    if (pending.empty()) return;
+    at = pending.back();
+    pending.pop_back();
+  }
+}
+
 /// Replaces every symbol by the wedge its chain ends at; restarts stay.
 ///
 /// errors  corrupt when a chain leaves its strip or never ends; offset is the entry's index

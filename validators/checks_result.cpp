@@ -59,7 +59,7 @@ std::vector<Index> groups_of_triangles(const ProgressiveMesh& mesh, const Replay
   for (std::size_t g = 0; g < mesh.group_entries.size(); ++g) {
     for_each_triangle(
         std::span(replay.map).subspan(first, mesh.group_entries[g]),
-        [&](Index w) { return replay.wedge_vertex[w]; },
+        [&](Index w) { return mesh.single_wedges ? w : replay.wedge_vertex[w]; },
         [&](Index, Index, Index) { out.push_back(static_cast<Index>(g)); });
     first += mesh.group_entries[g];
   }

@@ -1,107 +1,34 @@
 #include "validators/replay.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "core/strip_state.h"
 
 namespace pstrips::inline validators {
 namespace {
 
-// Symbols let one written place change many entries, and a reassigned wedge stands at many map
-// offsets. The encoder of [Kim04 §3.3] needs about two changed entries for each written one.
-constexpr std::uint64_t kWorkPerItem = 64;
-
-/// The state of a decoder between two records, kept so that a record costs what it changes.
-class State {
+/// How many triangles and strips a map shows, kept up to date entry by entry.
+class ShownCounts {
  public:
-  explicit State(const ProgressiveMesh& mesh)
-      : entry_(mesh.base_map),
-        owner_(mesh.base_wedge_vertex),
-        wedge_count_(mesh.base_vertices + mesh.vsplits.size()),
-        strip_of_(entry_.size()),
-        is_triangle_(entry_.size()),
-        lists_uses_(!mesh.reassigned.empty()) {
-    if (mesh.single_wedges) {
-      owner_.resize(mesh.base_wedges);
-      std::iota(owner_.begin(), owner_.end(), Index{0});
-    }
-    owner_.reserve(mesh.base_wedges + mesh.wedge_offset_counts.size());
-    for (const Index v : owner_) ++wedge_count_[v];
-    value_ = resolve(entry_).value();  // the index map is valid
+  explicit ShownCounts(const StripState& state)
+      : state_(state), strip_of_(state.resolved().size()), is_triangle_(strip_of_.size()) {
     Index strip = 0;
-    for (std::size_t i = 0; i < value_.size(); ++i)
-      strip_of_[i] = value_[i] == kRestart ? strip++ : strip;
+    for (std::size_t i = 0; i < strip_of_.size(); ++i)
+      strip_of_[i] = state.resolved()[i] == kRestart ? strip++ : strip;
     triangles_of_strip_.resize(std::size_t{strip} + 1);
-    for (std::size_t i = 0; i < value_.size(); ++i) refresh_window(i);
-    work_left_ =
-        1024 + kWorkPerItem * (entry_.size() + mesh.map_offsets.size() + mesh.reassigned.size());
-    if (lists_uses_) list_uses();
+    for (std::size_t i = 0; i < strip_of_.size(); ++i) count_window(i);
   }
 
-  Index wedges() const { return static_cast<Index>(owner_.size()); }
-  Index owner(Index wedge) const { return owner_[wedge]; }
-  Index wedges_of(Index vertex) const { return wedge_count_[vertex]; }
-  Index entry(Index place) const { return entry_[place]; }
-  Index value(Index place) const { return value_[place]; }
-  bool exhausted() const { return exhausted_; }
   Shown shown(Index vertices) const { return {vertices, triangles_, strips_}; }
 
-  void add_wedges(Index vertex, Index count) {
-    owner_.insert(owner_.end(), count, vertex);
-    wedge_count_[vertex] += count;
-    if (lists_uses_) first_use_.resize(owner_.size(), kNone);
-  }
-
-  /// The entry at `place` becomes `wedge`, and with it every entry whose symbols lead there.
-  void write(Index place, Index wedge) {
-    entry_[place] = wedge;
-    changing_.assign(1, place);
-    while (!changing_.empty() && spend()) {
-      const Index at = changing_.back();
-      changing_.pop_back();
-      set_value(at, wedge);
-      for (const int d : {-2, -1, 1, 2}) {
-        const std::int64_t other = std::int64_t{at} - d;
-        if (other < 0 || other >= static_cast<std::int64_t>(entry_.size())) continue;
-        if (entry_[static_cast<std::size_t>(other)] == symbol_of(d))
-          changing_.push_back(static_cast<Index>(other));
-      }
-    }
-  }
-
-  /// An existing wedge moves, with its attributes, to `vertex`.
-  void carry(Index wedge, Index vertex) {
-    --wedge_count_[owner_[wedge]];
-    ++wedge_count_[vertex];
-    owner_[wedge] = vertex;
-    for (Index at = first_use_[wedge]; at != kNone && spend(); at = next_use_[at])
-      refresh_windows_with(at);
-  }
-
-  Replay finish(std::vector<Shown> levels) && {
-    return {std::move(levels), std::move(value_), std::move(owner_), true};
+  /// Entry `at` shows another wedge or vertex.
+  void operator()(std::size_t at) {
+    for (std::size_t i = at < 2 ? 0 : at - 2; i <= at; ++i) count_window(i);
   }
 
  private:
-  bool spend() {
-    if (work_left_ == 0) exhausted_ = true;
-    return work_left_ > 0 && work_left_-- > 0;
-  }
-
-  void set_value(Index at, Index wedge) {
-    if (lists_uses_) {
-      unlink_use(at);
-      link_use(at, wedge);
-    }
-    value_[at] = wedge;
-    refresh_windows_with(at);
-  }
-
-  void refresh_windows_with(std::size_t at) {
-    for (std::size_t i = at < 2 ? 0 : at - 2; i <= at; ++i) refresh_window(i);
-  }
-
   /// Counts the triangle of the entries i, i+1, i+2 when it has come or gone.
-  void refresh_window(std::size_t i) {
+  void count_window(std::size_t i) {
     const bool is = shows_triangle(i);
     if (is == (is_triangle_[i] != 0)) return;
     is_triangle_[i] = is;
@@ -116,95 +43,71 @@ class State {
   }
 
   bool shows_triangle(std::size_t i) const {
-    if (value_.size() - i < 3) return false;
-    const Index a = value_[i], b = value_[i + 1], c = value_[i + 2];
-    if (a == kRestart || b == kRestart || c == kRestart) return false;
-    return owner_[a] != owner_[b] && owner_[b] != owner_[c] && owner_[a] != owner_[c];
+    const std::span<const Index> map = state_.resolved();
+    if (map.size() - i < 3) return false;
+    if (map[i] == kRestart || map[i + 1] == kRestart || map[i + 2] == kRestart) return false;
+    const Index a = state_.vertex_of(map[i]), b = state_.vertex_of(map[i + 1]),
+                c = state_.vertex_of(map[i + 2]);
+    return a != b && b != c && a != c;
   }
 
-  // Which entries hold a wedge: doubly linked lists over the map.
-  void list_uses() {
-    first_use_.assign(owner_.size(), kNone);
-    next_use_.assign(value_.size(), kNone);
-    previous_use_.assign(value_.size(), kNone);
-    for (Index at = 0; at < value_.size(); ++at)
-      if (value_[at] != kRestart) link_use(at, value_[at]);
-  }
-  void link_use(Index at, Index wedge) {
-    previous_use_[at] = kNone;
-    next_use_[at] = first_use_[wedge];
-    if (next_use_[at] != kNone) previous_use_[next_use_[at]] = at;
-    first_use_[wedge] = at;
-  }
-  void unlink_use(Index at) {
-    const Index next = next_use_[at], previous = previous_use_[at];
-    if (next != kNone) previous_use_[next] = previous;
-    (previous != kNone ? next_use_[previous] : first_use_[value_[at]]) = next;
-  }
-
-  std::vector<Index> entry_;        // as the file has it: symbols stay until written over
-  std::vector<Index> value_;        // what each entry resolves to
-  std::vector<Index> owner_;        // a vertex for each wedge
-  std::vector<Index> wedge_count_;  // of each vertex
+  const StripState& state_;
   std::vector<Index> strip_of_;
   std::vector<std::uint8_t> is_triangle_;  // by first entry
   std::vector<Index> triangles_of_strip_;
-  std::vector<Index> first_use_, next_use_, previous_use_;
-  std::vector<Index> changing_;
   Index triangles_ = 0, strips_ = 0;
-  std::uint64_t work_left_ = 0;
-  bool exhausted_ = false;
-  bool lists_uses_;  // a wedge is reassigned at some time
-};
-
-/// Where the lists of the current record start, from the start of the mesh.
-struct Cursor {
-  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0;
 };
 
 /// Replays one record at a time; a rule that is broken becomes a fault.
 class Records {
  public:
   Records(const ProgressiveMesh& mesh, Faults& faults)
-      : mesh_(mesh), faults_(faults), state_(mesh), vertices_(mesh.base_vertices) {}
+      : mesh_(mesh),
+        faults_(faults),
+        state_(mesh),
+        counts_(state_),
+        wedges_of_(mesh.base_vertices + mesh.vsplits.size()),
+        vertices_(mesh.base_vertices) {
+    for (Index w = 0; w < state_.wedge_count(); ++w) ++wedges_of_[state_.vertex_of(w)];
+    state_.grant_work(mesh.map_offsets.size() + mesh.reassigned.size());
+    if (!mesh.reassigned.empty()) state_.list_uses();
+  }
 
   Replay run(std::span<const Index> packets) {
-    std::vector<Shown> levels{state_.shown(vertices_)};
-    for (packet_ = 0; packet_ < packets.size(); ++packet_) {
+    Replay out;
+    out.levels.push_back(counts_.shown(vertices_));
+    out.finished = true;
+    for (packet_ = 0; packet_ < packets.size() && out.finished; ++packet_) {
       packet_start_ = at_;
-      for (Index record = 0; record < packets[packet_]; ++record)
-        if (!apply(record)) {
-          Replay stopped = std::move(state_).finish(std::move(levels));
-          stopped.finished = false;
-          return stopped;
-        }
-      levels.push_back(state_.shown(vertices_));
+      for (record_ = 0; record_ < packets[packet_] && out.finished; ++record_)
+        out.finished = apply();
+      if (out.finished) out.levels.push_back(counts_.shown(vertices_));
     }
-    return std::move(state_).finish(std::move(levels));
+    const std::span<const Index> map = state_.resolved(), vertices = state_.wedge_vertices();
+    out.map.assign(map.begin(), map.end());
+    out.wedge_vertex.assign(vertices.begin(), vertices.end());
+    return out;
   }
 
  private:
-  bool apply(Index record) {
-    record_ = record;
-    const Vsplit& split = mesh_.vsplits[at_.vsplit];
-    const Index vertex = vertices_;
-    if (split.parent > vertex) return broken(Fault::parent_not_there, Field::parent);
-    const bool alone = split.parent == vertex;
-    if (alone && split.reassigned > 0)
+  bool apply() {
+    const VsplitRecord record = record_at(mesh_, at_);
+    if (record.parent > record.vertex) return broken(Fault::parent_not_there, Field::parent);
+    const bool alone = record.parent == record.vertex;
+    if (alone && !record.reassigned.empty())
       return broken(Fault::isolated_vertex_reassigns, Field::record);
-    if (alone && split.map_offsets > 0) return broken(Fault::isolated_vertex_writes, Field::record);
-    if (alone && moves(vertex)) return broken(Fault::isolated_vertex_moves, Field::record);
+    if (alone && !record.map_offsets.empty())
+      return broken(Fault::isolated_vertex_writes, Field::record);
+    if (alone && moves(record.vertex)) return broken(Fault::isolated_vertex_moves, Field::record);
     ++vertices_;
-    const Index first_wedge = state_.wedges();
-    state_.add_wedges(vertex, split.wedges);
-    if (!write_offsets(split, first_wedge)) return false;
-    if (!reassign_wedges(split, first_wedge, vertex)) return false;
-    if (state_.wedges_of(vertex) == 0)
+    const Index first_wedge = state_.wedge_count();
+    if (!offsets_hold(record) || !write_offsets(record, first_wedge)) return false;
+    if (!reassign_wedges(record, first_wedge)) return false;
+    if (wedges_of_[record.vertex] == 0)
       return broken(Fault::new_vertex_without_wedge, Field::record);
-    if (state_.wedges_of(split.parent) == 0)
-      return broken(Fault::parent_without_wedge, Field::record);
-    if (state_.exhausted()) return broken(Fault::too_much_work, Field::record);
-    ++at_.vsplit;
+    if (wedges_of_[record.parent] == 0) return broken(Fault::parent_without_wedge, Field::record);
+    if (state_.is_exhausted()) return broken(Fault::too_much_work, Field::record);
+    at_.skip(mesh_.vsplits[at_.vsplit]);
     return true;
   }
 
@@ -216,58 +119,74 @@ class Records {
     return !std::ranges::equal(mesh_.position.element(vertex), moved);
   }
 
-  /// All map offsets are judged by the state before the record, then written.
-  bool write_offsets(const Vsplit& split, Index first_wedge) {
-    const std::size_t first_list = at_.offset_count, first_place = at_.map_offset;
-    for (Index w = 0; w < split.wedges; ++w, ++at_.offset_count)
-      for (Index k = 0; k < mesh_.wedge_offset_counts[at_.offset_count]; ++k, ++at_.map_offset) {
-        const Index place = mesh_.map_offsets[at_.map_offset];
-        if (place >= mesh_.base_map.size())
-          return broken(Fault::offset_past_end, Field::map_offset);
-        if (state_.value(place) == kRestart)
-          return broken(Fault::offset_is_restart, Field::map_offset);
-        if (k > 0 && place <= mesh_.map_offsets[at_.map_offset - 1])
-          return broken(Fault::offsets_not_ascending, Field::map_offset);
-        if (state_.owner(state_.value(place)) != split.parent)
-          return broken(Fault::offset_not_of_parent, Field::map_offset);
-      }
-    at_.map_offset = first_place;
-    for (Index w = 0; w < split.wedges; ++w)
-      for (Index k = 0; k < mesh_.wedge_offset_counts[first_list + w]; ++k, ++at_.map_offset) {
-        const Index place = mesh_.map_offsets[at_.map_offset];
-        const Index before = state_.entry(place);
-        if (is_wedge(before) && before >= first_wedge)
-          return broken(Fault::offset_twice, Field::map_offset);
-        state_.write(place, first_wedge + w);
+  /// All map offsets are judged by the state before the record.
+  bool offsets_hold(const VsplitRecord& record) {
+    std::size_t k = 0;
+    for (const Index count : record.offset_counts)
+      for (const std::size_t first = k, end = k + count; k < end; ++k) {
+        const Index offset = record.map_offsets[k];
+        if (offset >= mesh_.base_map.size()) return broken_offset(Fault::offset_past_end, k);
+        if (state_.resolved()[offset] == kRestart)
+          return broken_offset(Fault::offset_is_restart, k);
+        if (k > first && offset <= record.map_offsets[k - 1])
+          return broken_offset(Fault::offsets_not_ascending, k);
+        if (state_.vertex_at(offset) != record.parent)
+          return broken_offset(Fault::offset_not_of_parent, k);
       }
     return true;
   }
 
-  bool reassign_wedges(const Vsplit& split, Index first_wedge, Index vertex) {
-    for (Index k = 0; k < split.reassigned; ++k, ++at_.reassigned) {
-      const Index wedge = mesh_.reassigned[at_.reassigned];
-      if (wedge >= first_wedge) return broken(Fault::reassigned_not_there, Field::reassigned);
-      if (state_.owner(wedge) != split.parent)
-        return broken(Fault::reassigned_not_of_parent, Field::reassigned);
-      state_.carry(wedge, vertex);
+  bool write_offsets(const VsplitRecord& record, Index first_wedge) {
+    wedges_of_[record.vertex] += static_cast<Index>(record.offset_counts.size());
+    for (std::size_t w = 0; w < record.offset_counts.size(); ++w) state_.add_wedge(record.vertex);
+    Index wedge = first_wedge;
+    std::size_t k = 0;
+    for (const Index count : record.offset_counts) {
+      for (const std::size_t end = k + count; k < end; ++k) {
+        const Index before = state_.stored(record.map_offsets[k]);
+        if (is_wedge(before) && before >= first_wedge) return broken_offset(Fault::offset_twice, k);
+        state_.write(record.map_offsets[k], wedge, wedge, counts_);
+      }
+      ++wedge;
     }
     return true;
   }
 
-  bool broken(Fault fault, Field field) {
+  bool reassign_wedges(const VsplitRecord& record, Index first_wedge) {
+    for (std::size_t k = 0; k < record.reassigned.size(); ++k) {
+      const Index wedge = record.reassigned[k];
+      if (wedge >= first_wedge) return broken_wedge(Fault::reassigned_not_there, k);
+      if (state_.vertex_of(wedge) != record.parent)
+        return broken_wedge(Fault::reassigned_not_of_parent, k);
+      --wedges_of_[record.parent];
+      ++wedges_of_[record.vertex];
+      state_.reassign(wedge, record.vertex, counts_);
+    }
+    return true;
+  }
+
+  /// Faults of the k-th list element of the record.
+  bool broken_offset(Fault fault, std::size_t k) {
+    return broken(fault, Field::map_offset, at_.map_offset - packet_start_.map_offset + k);
+  }
+  bool broken_wedge(Fault fault, std::size_t k) {
+    return broken(fault, Field::reassigned, at_.reassigned - packet_start_.reassigned + k);
+  }
+  bool broken(Fault fault, Field field, std::uint64_t element = 0) {
     Where where{.field = field, .packet = packet_, .record = record_};
     if (field == Field::parent) where.element = record_;
-    if (field == Field::map_offset) where.element = at_.map_offset - packet_start_.map_offset;
-    if (field == Field::reassigned) where.element = at_.reassigned - packet_start_.reassigned;
+    if (field == Field::map_offset || field == Field::reassigned) where.element = element;
     faults_.add(fault, where);
     return false;
   }
 
   const ProgressiveMesh& mesh_;
   Faults& faults_;
-  State state_;
+  StripState state_;
+  ShownCounts counts_;
+  std::vector<Index> wedges_of_;  // how many wedges each vertex has
   Index vertices_;
-  Cursor at_, packet_start_;
+  RecordStart at_, packet_start_;
   Index packet_ = 0, record_ = 0;
 };
 

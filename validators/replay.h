@@ -15,10 +15,10 @@ struct Shown {
 
 /// A mesh after its last record, and what it showed on the way.
 struct Replay {
-  std::vector<Shown> levels;  ///< after the base and after each of its packets
-  std::vector<Index> map;     ///< resolved
-  std::vector<Index> wedge_vertex;
-  bool finished = false;  ///< all records were replayed
+  std::vector<Shown> levels;        ///< after the base and after each of its packets
+  std::vector<Index> map;           ///< resolved
+  std::vector<Index> wedge_vertex;  ///< empty with single wedges
+  bool finished = false;            ///< all records were replayed
 };
 
 /// Replays the records of a mesh one by one and checks each against the state before it.
@@ -29,8 +29,8 @@ struct Replay {
 /// faults   gets the first record that breaks a rule (`Where` without its mesh); what follows it
 ///          is not judged, since it builds on it
 /// cost     O(map + records + lists) where symbols and reassigned wedges are as rare as an encoder
-///          makes them; a file made to cost more is stopped at 64 times that, with
-///          Fault::too_much_work
+///          makes them; a file made to cost more is stopped when the work of StripState is spent,
+///          with Fault::too_much_work
 Replay replay(const ProgressiveMesh& mesh, std::span<const Index> packets, Faults& faults);
 
 }  // namespace pstrips::inline validators

@@ -9,7 +9,7 @@ DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, AppendFilter filter)
       filter_(filter),
       strips_(strip_ranges(level_.resolved())),
       segments_(strips_.size()),
-      filtered_to_(level_.mark()),
+      filtered_to_(level_.next()),
       is_touched_(strips_.size()) {
   for (std::size_t s = 0; s < strips_.size(); ++s) refilter(s);
 }
@@ -18,14 +18,14 @@ void DisplayLevel::refine(Index vsplits) { level_.refine(vsplits); }
 
 std::size_t DisplayLevel::update() {
   touched_.clear();
-  for (const Index place : level_.offsets_since(filtered_to_)) {
-    const auto after = std::ranges::upper_bound(strips_, place, {}, &StripRange::first);
+  for (const Index offset : level_.offsets_since(filtered_to_)) {
+    const auto after = std::ranges::upper_bound(strips_, offset, {}, &StripRange::first);
     const auto strip = static_cast<Index>(after - strips_.begin() - 1);
     if (is_touched_[strip]) continue;
     is_touched_[strip] = true;
     touched_.push_back(strip);
   }
-  filtered_to_ = level_.mark();
+  filtered_to_ = level_.next();
   for (const Index strip : touched_) {
     refilter(strip);
     is_touched_[strip] = false;

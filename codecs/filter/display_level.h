@@ -40,8 +40,8 @@ class DisplayLevel {
   std::vector<Segment> segments_;  // of the pool, one a strip
   // A restart, then segments that each begin with one; old ones stay until compact().
   DisplayStrips pool_{kRestart};
-  std::size_t used_ = 0;  // entries of the pool in segments
-  Level::Mark filtered_to_;
+  std::size_t used_ = 0;        // entries of the pool in segments
+  RecordStart filtered_to_;     // the first record that is not in the pool
   std::vector<Index> touched_;  // scratch of update()
   std::vector<bool> is_touched_;
   DisplayCost cost_;

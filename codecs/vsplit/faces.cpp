@@ -145,10 +145,11 @@ Mesh mesh_to_decode(const Mesh& source, const StripMap& strips, const Recording&
     for (const Index w : recording.wedge_from)
       wedge_vertex.push_back(vertex_to[source.vertex_of(w)]);
   }
-  Bytes positions;
+  Bytes moved;
   if (mesh.placement == Placement::optimal)
-    positions = gather(source.position, recording.vertex_from).data;
-  return mesh_of(Level::full(mesh, std::move(map), std::move(wedge_vertex), std::move(positions)))
+    moved = gather(source.position, recording.vertex_from).data;
+  return mesh_of(LevelView{&mesh, mesh.vertices, mesh.wedges, map, wedge_vertex,
+                           moved.empty() ? mesh.position.data : moved})
       .value();
 }
 

@@ -18,13 +18,13 @@ struct Triangles {
   std::vector<Index> group;
 };
 
-Triangles triangles_of(const Level& level) {
+Triangles triangles_of(const LevelView& level) {
   Triangles out;
-  const ProgressiveMesh& mesh = level.mesh();
-  const std::span<const Index> map = level.resolved();
+  const ProgressiveMesh& mesh = *level.mesh;
+  const std::span<const Index> map = level.resolved;
   const auto vertex_of = [&](Index w) { return level.vertex_of(w); };
   const bool grouped = mesh.groups.size() > 1;
-  if (level.vertex_count() == mesh.vertices)
+  if (level.vertices == mesh.vertices)
     out.corners.reserve(std::min<std::size_t>(mesh.triangles, map.size()) * 3);
   std::size_t first = 0;
   for (std::size_t g = 0; g < mesh.group_entries.size(); ++g) {
@@ -71,103 +71,35 @@ void permute(Attribute& attribute, std::span<const Index> to) {
 
 }  // namespace
 
-Level::Level(const ProgressiveMesh& mesh)
-    : mesh_(&mesh), wedge_count_(mesh.base_wedges), wedge_vertex_(mesh.base_wedge_vertex) {
-  auto resolved = resolve(mesh.base_map);
-  assert(resolved);
-  resolved_ = std::move(resolved).value();
-  if (mesh.encoding == MapEncoding::offset) map_ = mesh.base_map;
-  if (mesh.placement == Placement::optimal)
-    moved_positions_.assign(
-        mesh.position.data.begin(),
-        mesh.position.data.begin() +
-            static_cast<std::ptrdiff_t>(mesh.position.element_bytes() * mesh.base_vertices));
-}
-
-Level Level::full(const ProgressiveMesh& mesh, std::vector<Index> resolved,
-                  std::vector<Index> wedge_vertex, Bytes positions) {
-  assert(wedge_vertex.empty() == mesh.single_wedges || mesh.wedges == 0);
-  assert(resolved.size() == mesh.base_map.size());
-  Level out;
-  out.mesh_ = &mesh;
-  out.next_ = static_cast<Index>(mesh.vsplits.size());
-  out.wedge_count_ = mesh.wedges;
-  out.new_wedge_ = mesh.wedge_offset_counts.size();
-  out.map_offset_ = mesh.map_offsets.size();
-  out.reassigned_ = mesh.reassigned.size();
-  out.resolved_ = std::move(resolved);
-  out.wedge_vertex_ = std::move(wedge_vertex);
-  out.moved_positions_ = std::move(positions);
-  return out;
+Level::Level(const ProgressiveMesh& mesh) : mesh_(&mesh), state_(mesh) {
+  if (mesh.placement != Placement::optimal) return;
+  const std::size_t bytes = mesh.position.element_bytes() * mesh.base_vertices;
+  const ByteView base = ByteView(mesh.position.data).first(bytes);
+  moved_positions_.assign(base.begin(), base.end());
 }
 
 void Level::refine(Index vsplits) {
-  const ProgressiveMesh& mesh = *mesh_;
-  const Index available = static_cast<Index>(mesh.vsplits.size()) - next_;
-  const std::size_t position_bytes = mesh.position.element_bytes();
-  for (Index n = std::min(vsplits, available); n > 0; --n, ++next_) {
-    const Vsplit& split = mesh.vsplits[next_];
-    const Index vertex = vertex_count();
-    if (mesh.single_wedges) {
-      for (Index i = 0; i < split.map_offsets; ++i) write(mesh.map_offsets[map_offset_++], vertex);
-      ++wedge_count_;
-    } else {
-      for (Index i = 0; i < split.reassigned; ++i)
-        wedge_vertex_[mesh.reassigned[reassigned_++]] = vertex;
-      for (Index i = 0; i < split.wedges; ++i) {
-        wedge_vertex_.push_back(vertex);
-        for (Index k = mesh.wedge_offset_counts[new_wedge_++]; k > 0; --k)
-          write(mesh.map_offsets[map_offset_++], wedge_count_);
-        ++wedge_count_;
-      }
-    }
-    if (mesh.placement != Placement::optimal) continue;
-    const auto born =
-        mesh.position.data.begin() + static_cast<std::ptrdiff_t>(vertex * position_bytes);
-    moved_positions_.insert(moved_positions_.end(), born,
-                            born + static_cast<std::ptrdiff_t>(position_bytes));
-    if (split.parent != vertex)
-      std::copy_n(
-          mesh.parent_position.begin() + static_cast<std::ptrdiff_t>(next_ * position_bytes),
-          position_bytes,
-          moved_positions_.begin() + static_cast<std::ptrdiff_t>(split.parent * position_bytes));
+  const bool moves = mesh_->placement == Placement::optimal;
+  const std::size_t available = mesh_->vsplits.size() - next_.vsplit;
+  for (std::size_t n = std::min<std::size_t>(vsplits, available); n > 0; --n) {
+    const Vsplit& split = mesh_->vsplits[next_.vsplit];
+    if (moves) place(split, vertex_count());
+    state_.grant_work(std::uint64_t{split.map_offsets} + split.reassigned);
+    state_.apply(record_at(*mesh_, next_), kUnobserved, kUnobserved);
+    next_.skip(split);
   }
-  if (!map_.empty() && !follows_chains()) {
-    auto resolved = resolve(map_);  // records write wedges only, so that chains still end
-    assert(resolved);
-    resolved_ = std::move(resolved).value();
-  }
+  if (state_.is_exhausted()) state_.resolve_again();
 }
 
-void Level::write(Index offset, Index wedge) {
-  resolved_[offset] = wedge;
-  if (map_.empty()) return;
-  map_[offset] = wedge;
-  if (follows_chains()) follow_chains(offset, wedge);
-}
-
-// An honest file rewrites a few entries a place; one that asks for more than this is resolved as a
-// whole after each refine(). [spec/vsplit.md §3]
-bool Level::follows_chains() const {
-  constexpr std::uint64_t kEntriesAPlace = 64;
-  return followed_ <= kEntriesAPlace * (map_.size() + map_offset_);
-}
-
-void Level::follow_chains(Index offset, Index wedge) {
-  // Entries whose chains end here now stand for the new wedge too. Chains have no cycles, so each
-  // is reached once.
-  pending_.assign(1, offset);
-  while (!pending_.empty()) {
-    const Index at = pending_.back();
-    pending_.pop_back();
-    for (const int d : {-2, -1, 1, 2}) {
-      const std::size_t from = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) - d);
-      if (from >= map_.size() || map_[from] != symbol_of(d)) continue;
-      resolved_[from] = wedge;
-      pending_.push_back(static_cast<Index>(from));
-      ++followed_;
-    }
-  }
+// Where the record's vertices stand after it.
+void Level::place(const Vsplit& split, Index vertex) {
+  const std::size_t bytes = mesh_->position.element_bytes();
+  const ByteView born = mesh_->position.element(vertex);
+  moved_positions_.insert(moved_positions_.end(), born.begin(), born.end());
+  if (split.parent == vertex) return;
+  const ByteView parent = ByteView(mesh_->parent_position).subspan(next_.vsplit * bytes, bytes);
+  std::ranges::copy(parent,
+                    moved_positions_.begin() + static_cast<std::ptrdiff_t>(split.parent * bytes));
 }
 
 ByteView Level::positions() const {
@@ -176,28 +108,30 @@ ByteView Level::positions() const {
   return ByteView(all).first(mesh_->position.element_bytes() * vertex_count());
 }
 
-Result<Mesh> mesh_of(const Level& level) {
-  const ProgressiveMesh& from = level.mesh();
+LevelView Level::view() const {
+  return {mesh_, vertex_count(), wedge_count(), resolved(), wedge_vertices(), positions()};
+}
+
+Result<Mesh> mesh_of(const LevelView& level) {
+  const ProgressiveMesh& from = *level.mesh;
   Mesh mesh;
   mesh.name = from.name;
   mesh.groups = from.groups;
   mesh.position = prefix_of(from.position, 0);
-  const ByteView positions = level.positions();
-  mesh.position.data.assign(positions.begin(), positions.end());
+  mesh.position.data.assign(level.positions.begin(), level.positions.end());
   if (!from.single_wedges) {
-    const std::span<const Index> vertices = level.wedge_vertices();
-    mesh.wedge_vertex.assign(vertices.begin(), vertices.end());
-    std::vector<bool> has_wedge(level.vertex_count(), false);
-    for (const Index v : vertices) has_wedge[v] = true;
+    mesh.wedge_vertex.assign(level.wedge_vertices.begin(), level.wedge_vertices.end());
+    std::vector<bool> has_wedge(level.vertices, false);
+    for (const Index v : level.wedge_vertices) has_wedge[v] = true;
     if (std::ranges::find(has_wedge, false) != has_wedge.end())
       return fail(ErrorCode::corrupt, "a vertex has no wedge");
   }
   for (const Attribute& a : from.wedge_attributes)
-    mesh.wedge_attributes.push_back(prefix_of(a, level.wedge_count()));
+    mesh.wedge_attributes.push_back(prefix_of(a, level.wedges));
   Triangles triangles = triangles_of(level);
   mesh.corners = std::move(triangles.corners);
   mesh.face_group = std::move(triangles.group);
-  if (level.vertex_count() == from.vertices) {
+  if (level.vertices == from.vertices) {
     if (mesh.corners.size() / 3 != from.triangles)
       return fail(ErrorCode::corrupt, "shows another number of triangles than it says");
     if (!from.faces.first.empty()) apply_face_table(from.faces, mesh);

@@ -5,91 +5,84 @@
 
 #include "core/progressive_strips.h"
 #include "core/result.h"
+#include "core/strip_state.h"
 
 namespace pstrips::inline codecs {
+
+/// What a level shows, as views of arrays that live elsewhere.
+struct LevelView {
+  const ProgressiveMesh* mesh;
+  Index vertices, wedges;
+  std::span<const Index> resolved;        ///< the map with every symbol replaced; restarts stay
+  std::span<const Index> wedge_vertices;  ///< empty with single wedges
+  ByteView positions;                     ///< of all vertices of the level, one element each
+
+  Index vertex_of(Index wedge) const {
+    return wedge_vertices.empty() ? wedge : wedge_vertices[wedge];
+  }
+};
 
 /// One level of a progressive mesh while it is refined: the decoding state machine.
 /// [spec/vsplit.md §3; Kim04 §3.2]
 ///
 /// Refers to the mesh, which must outlive it and may grow (a StreamDecoder appends packets). Its
 /// records must be safe, as both readers guarantee: parents, reassigned wedges and map offsets in
-/// range, no place on a restart, every chain of the base map ending at a wedge.
+/// range, no map offset that of a restart, every chain of the base map ending at a wedge.
 class Level {
  public:
   /// The base. Cost O(base and map size).
   explicit Level(const ProgressiveMesh& mesh);
 
-  /// The last level of a complete mesh, whose parts are known otherwise: no record is looked at.
-  ///
-  /// resolved      the whole map
-  /// wedge_vertex  of all wedges; empty with single wedges
-  /// positions     with free placement, of all vertices; else empty
-  static Level full(const ProgressiveMesh& mesh, std::vector<Index> resolved,
-                    std::vector<Index> wedge_vertex, Bytes positions);
-
   /// Applies the next `vsplits` records, those the mesh has not got left out.
   ///
   /// cost  O(what they rewrite): the map offsets and the entries whose chains end there. Hostile
-  /// records
-  ///       that rewrite long chains again and again cost O(map) a call instead
+  ///       records that rewrite long chains again and again cost O(map) a call instead
   void refine(Index vsplits);
-  /// Frees what only refine() needs; it must not be called again.
-  void forget_symbols() { map_ = {}; }
   /// Up to the last record the mesh has.
   void refine_fully() { refine(kNone); }
+  /// Frees what only refine() needs; it must not be called again.
+  void release_symbols() { state_.release_symbols(); }
 
   const ProgressiveMesh& mesh() const { return *mesh_; }
-  Index vsplits_done() const { return next_; }
-  Index vertex_count() const { return mesh_->base_vertices + next_; }
-  Index wedge_count() const { return wedge_count_; }
-  Index vertex_of(Index wedge) const {
-    return wedge_vertex_.empty() ? wedge : wedge_vertex_[wedge];
-  }
+  Index vsplits_done() const { return static_cast<Index>(next_.vsplit); }
+  Index vertex_count() const { return mesh_->base_vertices + vsplits_done(); }
+  Index wedge_count() const { return state_.wedge_count(); }
+  Index vertex_of(Index wedge) const { return state_.vertex_of(wedge); }
 
   /// A vertex for each wedge; empty with single wedges.
-  std::span<const Index> wedge_vertices() const { return wedge_vertex_; }
-
+  std::span<const Index> wedge_vertices() const { return state_.wedge_vertices(); }
   /// The index map with every symbol replaced by its wedge; restarts stay.
-  std::span<const Index> resolved() const { return resolved_; }
+  std::span<const Index> resolved() const { return state_.resolved(); }
   /// Position bytes of all vertices of the level, one element each.
   ByteView positions() const;
-  /// The map offsets that records from..vsplits_done() rewrote, as offsets into the map.
-  /// Precondition: `from` was vsplits_done() once.
-  struct Mark {
-    Index vsplit = 0;
-    std::size_t map_offset = 0;
-  };
-  Mark mark() const { return {next_, map_offset_}; }
-  std::span<const Index> offsets_since(const Mark& mark) const {
-    return std::span(mesh_->map_offsets).subspan(mark.map_offset, map_offset_ - mark.map_offset);
+  LevelView view() const;
+
+  /// The first record that has not been applied.
+  const RecordStart& next() const { return next_; }
+  /// The map offsets of the records from `start` on that have been applied.
+  /// Precondition: `start` was next() once.
+  std::span<const Index> offsets_since(const RecordStart& start) const {
+    return std::span(mesh_->map_offsets)
+        .subspan(start.map_offset, next_.map_offset - start.map_offset);
   }
 
  private:
-  Level() = default;
-  void write(Index offset, Index wedge);
-  bool follows_chains() const;
-  void follow_chains(Index offset, Index wedge);
+  void place(const Vsplit& split, Index vertex);
 
-  const ProgressiveMesh* mesh_ = nullptr;
-  Index next_ = 0;  // first record not yet applied
-  Index wedge_count_ = 0;
-  std::size_t new_wedge_ = 0, map_offset_ = 0, reassigned_ = 0;  // next element of the mesh's lists
-  std::vector<Index> resolved_;
-  std::vector<Index> map_;           // with symbols; empty when there are none
-  std::vector<Index> wedge_vertex_;  // empty with single wedges
-  Bytes moved_positions_;            // free placement only
-  std::vector<Index> pending_;       // scratch of follow_chains()
-  std::uint64_t followed_ = 0;       // entries that follow_chains() has rewritten so far
+  const ProgressiveMesh* mesh_;
+  StripState state_;
+  RecordStart next_;
+  Bytes moved_positions_;  // with optimal placement
 };
 
 /// The mesh that a level shows, in decoded numbering. At the full level the faces of the face table
 /// take the place of the triangles they replace.
 ///
 /// errors  corrupt, for what the readers do not look into: a vertex without a wedge, or a full
-/// level
-///         that does not show as many triangles as the mesh says, so that its face table could not
-///         be applied
-Result<Mesh> mesh_of(const Level& level);
+///         level that does not show as many triangles as the mesh says, so that its face table
+///         could not be applied
+Result<Mesh> mesh_of(const LevelView& level);
+inline Result<Mesh> mesh_of(const Level& level) { return mesh_of(level.view()); }
 
 /// The original order, from a fully refined mesh in decoded numbering. [spec/model.md §7]
 /// Precondition: the lists of `order` are permutations of the right sizes.

@@ -176,18 +176,14 @@ void Recorder::close_windows(Entry* entry, Index vertex) {
 
 // Gives the entry and all whose chains end at it another wedge, or the same at another vertex.
 void Recorder::change_wedge(Index at, Index to, Index vertex) {
-  pending_.clear();
-  for (;;) {
-    Entry* const e = &entry(at);
-    e->wedge = to;
-    if (symbols_)
-      for (const int d : {-2, -1, 1, 2})
-        if (e[-d].symbol == d) pending_.push_back(at - static_cast<Index>(d));
-    close_windows(e, vertex);
-    if (pending_.empty()) return;
-    at = pending_.back();
-    pending_.pop_back();
-  }
+  Entry* const map = entries_.data() + kMargin;
+  for_each_follower(
+      at, pending_, [&](std::ptrdiff_t i, int d) { return map[i].symbol == d; },
+      [&](Index i) {
+        map[i].wedge = to;
+        close_windows(map + i, vertex);
+        return true;
+      });
 }
 
 // Entry of a removed wedge: takes a symbol when the wedge that replaces it stands within two

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <numeric>
 
+#include "core/strip_state.h"
 #include "formats/pstrip/numbers.h"
 #include "formats/pstrip/text/face_finder.h"
 #include "formats/pstrip/text/text.h"
@@ -12,122 +12,52 @@ namespace {
 /// that a record touches takes less than 64 bytes.
 constexpr std::uint64_t kBytesPerEntry = 64;
 
-/// A mesh between two records, and what the last record touched. [spec/vsplit.md]
+/// A mesh between two records, and what the last record changed. [spec/vsplit.md]
 class Replay {
  public:
-  /// max_work  entries that all steps together may touch
-  Replay(const ProgressiveMesh& mesh, std::vector<Index> resolved, std::uint64_t max_work)
-      : mesh_(mesh),
-        resolved_(std::move(resolved)),
-        wedge_vertex_(mesh.base_wedge_vertex),
-        linked_(!mesh.reassigned.empty()),
-        max_work_(max_work) {
-    if (mesh.encoding == MapEncoding::offset) symbols_ = mesh.base_map;
-    if (mesh.single_wedges) {
-      wedge_vertex_.resize(mesh.base_wedges);
-      std::iota(wedge_vertex_.begin(), wedge_vertex_.end(), Index{0});
-    }
-    if (linked_) link_all();
+  /// max_work  entries that all records together may change
+  Replay(const ProgressiveMesh& mesh, std::uint64_t max_work) : mesh_(mesh), state_(mesh) {
+    state_.limit_work(max_work);
+    if (!mesh.reassigned.empty()) state_.list_uses();
   }
 
   enum class Outcome : std::uint8_t { applied, broken, too_much };
 
-  /// Applies record `vsplit`, the one after the last. Broken: it rewrites an entry that does not
-  /// show its parent or carries a wedge that is not its parent's.
-  Outcome step(Index vsplit) {
-    const Vsplit& split = mesh_.vsplits[vsplit];
-    const Index vertex = mesh_.base_vertices + vsplit;
-    touched_.clear();
-    outcome_ = Outcome::applied;
-    for (Index k = 0; k < split.reassigned; ++k) {
-      const Index wedge = mesh_.reassigned[reassigned_++];
-      if (wedge_vertex_[wedge] != split.parent) return Outcome::broken;
-      wedge_vertex_[wedge] = vertex;
-      for (Index at = first_place_[wedge]; at != kNone; at = next_place_[at])
-        if (!touch(at)) return outcome_;
-    }
-    for (Index k = 0; k < split.wedges; ++k) {
-      const auto wedge = static_cast<Index>(wedge_vertex_.size());
-      wedge_vertex_.push_back(vertex);
-      if (linked_) first_place_.push_back(kNone);
-      for (Index n = mesh_.wedge_offset_counts[wedge_place_++]; n > 0; --n)
-        if (!write(mesh_.map_offsets[map_offset_++], wedge, split.parent, vertex)) return outcome_;
-    }
-    std::ranges::sort(touched_);
-    touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-    return outcome_;
+  /// Applies the next record. Broken: it rewrites an entry that does not show its parent, or
+  /// reassigns a wedge that is not its parent's.
+  Outcome step() {
+    const VsplitRecord record = record_at(mesh_, next_);
+    bool broken = false;
+    changed_.clear();
+    state_.apply(
+        record, [this](Index entry) { changed_.push_back(entry); },
+        [&](const StripChange& change) { broken |= !is_of_parent(change, record); });
+    next_.skip(mesh_.vsplits[next_.vsplit]);
+    if (broken) return Outcome::broken;
+    if (state_.is_exhausted()) return Outcome::too_much;
+    std::ranges::sort(changed_);
+    changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+    return Outcome::applied;
   }
 
-  /// Entries whose wedge, or whose wedge's vertex, the last step changed; ascending.
-  std::span<const Index> touched() const { return touched_; }
-  std::span<const Index> resolved() const { return resolved_; }
-  Index vertex_at(Index entry) const { return wedge_vertex_[resolved_[entry]]; }
-  Index wedge_count() const { return static_cast<Index>(wedge_vertex_.size()); }
+  /// Entries whose wedge, or whose wedge's vertex, the last record changed; ascending.
+  std::span<const Index> changed() const { return changed_; }
+  std::span<const Index> resolved() const { return state_.resolved(); }
+  Index vertex_at(Index entry) const { return state_.vertex_at(entry); }
+  Index wedge_count() const { return state_.wedge_count(); }
 
  private:
-  bool touch(Index entry) {
-    touched_.push_back(entry);
-    if (++work_ > max_work_) outcome_ = Outcome::too_much;
-    return outcome_ == Outcome::applied;
-  }
-
-  /// Writes a wedge, also to the entries whose symbols lead here.
-  bool write(Index place, Index wedge, Index parent, Index vertex) {
-    if (!symbols_.empty()) symbols_[place] = wedge;
-    pending_.assign(1, place);
-    while (!pending_.empty()) {
-      const Index at = pending_.back();
-      pending_.pop_back();
-      const Index before = vertex_at(at);
-      if (before != parent && before != vertex) return outcome_ = Outcome::broken, false;
-      relink(at, wedge);
-      if (!touch(at)) return false;
-      for (const int d : {-2, -1, 1, 2}) {
-        const std::int64_t other = std::int64_t{at} + d;
-        if (other < 0 || other >= static_cast<std::int64_t>(symbols_.size())) continue;
-        const Index entry = symbols_[static_cast<std::size_t>(other)];
-        if (is_symbol(entry) && distance_of(entry) == -d)
-          pending_.push_back(static_cast<Index>(other));
-      }
-    }
-    return true;
-  }
-
-  // Entries of each wedge, doubly linked; needed only when wedges are reassigned.
-  void link_all() {
-    first_place_.assign(mesh_.base_wedges, kNone);
-    next_place_.assign(resolved_.size(), kNone);
-    previous_place_ = next_place_;
-    for (Index at = 0; at < resolved_.size(); ++at)
-      if (resolved_[at] != kRestart) link(at);
-  }
-  void link(Index at) {
-    Index& first = first_place_[resolved_[at]];
-    previous_place_[at] = kNone;
-    next_place_[at] = first;
-    if (first != kNone) previous_place_[first] = at;
-    first = at;
-  }
-  void relink(Index at, Index wedge) {
-    if (linked_) {
-      const Index next = next_place_[at], previous = previous_place_[at];
-      (previous == kNone ? first_place_[resolved_[at]] : next_place_[previous]) = next;
-      if (next != kNone) previous_place_[next] = previous;
-    }
-    resolved_[at] = wedge;
-    if (linked_) link(at);
+  bool is_of_parent(const StripChange& change, const VsplitRecord& record) const {
+    if (change.kind == StripChange::Kind::wedge) return true;
+    if (change.kind == StripChange::Kind::owner) return change.before == record.parent;
+    const Index before = state_.vertex_of(change.before);
+    return before == record.parent || before == record.vertex;
   }
 
   const ProgressiveMesh& mesh_;
-  std::vector<Index> resolved_;
-  std::vector<Index> symbols_;  // the map as it stands, symbols included; empty: there are none
-  std::vector<Index> wedge_vertex_;
-  bool linked_;
-  std::vector<Index> first_place_, next_place_, previous_place_;
-  std::vector<Index> touched_, pending_;
-  std::size_t wedge_place_ = 0, reassigned_ = 0, map_offset_ = 0;
-  std::uint64_t work_ = 0, max_work_;
-  Outcome outcome_ = Outcome::applied;
+  StripState state_;
+  RecordStart next_;
+  std::vector<Index> changed_;
 };
 
 Error error_of(Replay::Outcome outcome, Index mesh, Index vsplit) {
@@ -148,10 +78,9 @@ const Attribute* texture_of(const ProgressiveMesh& mesh) {
 /// A face of the format keeps its texture indices for good; only the coordinates under an index
 /// change. So two corners share an index when they show the same wedge at every level.
 Result<std::vector<Index>> texture_slots(const ProgressiveMesh& mesh, Index index,
-                                         std::span<const Index> resolved, std::uint64_t max_work,
-                                         Index& slots) {
-  Replay replay(mesh, {resolved.begin(), resolved.end()}, max_work);
-  std::vector<Index> slot(resolved.begin(), resolved.end());
+                                         std::uint64_t max_work, Index& slots) {
+  Replay replay(mesh, max_work);
+  std::vector<Index> slot(replay.resolved().begin(), replay.resolved().end());
   slots = mesh.base_wedges;
   struct Changed {
     Index slot, wedge, entry;
@@ -160,10 +89,10 @@ Result<std::vector<Index>> texture_slots(const ProgressiveMesh& mesh, Index inde
   std::vector<Changed> changed;
   for (Index i = 0; i < mesh.vsplits.size(); ++i) {
     const Index first_new = replay.wedge_count();
-    if (const auto outcome = replay.step(i); outcome != Replay::Outcome::applied)
+    if (const auto outcome = replay.step(); outcome != Replay::Outcome::applied)
       return tl::unexpected<Error>(error_of(outcome, index, i));
     changed.clear();
-    for (const Index entry : replay.touched())
+    for (const Index entry : replay.changed())
       if (replay.resolved()[entry] >= first_new)
         changed.push_back({slot[entry], replay.resolved()[entry], entry});
     std::ranges::sort(changed);
@@ -191,16 +120,14 @@ class MeshWriter {
  public:
   static Result<MeshWriter> make(const ProgressiveMesh& mesh, Index index, bool textured,
                                  std::uint64_t max_work) {
-    Result<std::vector<Index>> resolved = resolve(mesh.base_map);
-    if (!resolved) return tl::unexpected<Error>(resolved.error());
     std::vector<Index> slot;
     Index slots = 0;
     if (textured) {
-      Result<std::vector<Index>> found = texture_slots(mesh, index, *resolved, max_work, slots);
+      Result<std::vector<Index>> found = texture_slots(mesh, index, max_work, slots);
       if (!found) return tl::unexpected<Error>(found.error());
       slot = std::move(*found);
     }
-    return MeshWriter(mesh, std::move(*resolved), std::move(slot), slots, max_work);
+    return MeshWriter(mesh, std::move(slot), slots, max_work);
   }
 
   void write_vertices(TextWriter& out, Numbering& numbers) {
@@ -241,8 +168,7 @@ class MeshWriter {
   /// Record `split`, the one after the last.
   Replay::Outcome write_record(TextWriter& out, Numbering& numbers, Index split) {
     const Index vertex = mesh_->base_vertices + split;
-    if (const auto outcome = replay_.step(split); outcome != Replay::Outcome::applied)
-      return outcome;
+    if (const auto outcome = replay_.step(); outcome != Replay::Outcome::applied) return outcome;
     vertex_number_.push_back(++numbers.vertices);
     move_parent(split);
     sort_windows(vertex);
@@ -279,14 +205,14 @@ class MeshWriter {
  private:
   enum class Window : std::uint8_t { none, even, odd };
 
-  MeshWriter(const ProgressiveMesh& mesh, std::vector<Index> resolved, std::vector<Index> slot,
-             Index slots, std::uint64_t max_work)
+  MeshWriter(const ProgressiveMesh& mesh, std::vector<Index> slot, Index slots,
+             std::uint64_t max_work)
       : mesh_(&mesh),
         texture_(texture_of(mesh)),
         slot_(std::move(slot)),
         slot_number_(slots, kNone),
         slot_wedge_(slots, kNone),
-        replay_(mesh, std::move(resolved), max_work) {
+        replay_(mesh, max_work) {
     const std::span<const Index> map = replay_.resolved();
     windows_.assign(map.size(), Window::none);
     face_of_.assign(map.size(), kNone);
@@ -359,7 +285,7 @@ class MeshWriter {
     added_.clear();
     changed_.clear();
     Index done = 0;  // windows below this one are sorted already
-    for (const Index entry : replay_.touched())
+    for (const Index entry : replay_.changed())
       for (Index window = std::max(done, entry < 2 ? 0 : entry - 2); window <= entry; ++window) {
         done = window + 1;
         if (!is_triangle(window)) continue;
@@ -426,7 +352,7 @@ class MeshWriter {
     for (const Index window : added_)
       for (const Index entry : corners_of(window))
         if (announce(entry, numbers)) announced.push_back(entry);
-    for (const Index entry : replay_.touched()) {
+    for (const Index entry : replay_.changed()) {
       const Index slot = slot_[entry], wedge = replay_.resolved()[entry];
       if (slot_number_[slot] == kNone || slot_wedge_[slot] == wedge) continue;
       if (!std::ranges::equal(texture_->element(slot_wedge_[slot]), texture_->element(wedge)))

@@ -214,7 +214,7 @@ TEST(Vsplit, PolygonsLinesAndFaceAttributesComeBack) {
   }
 }
 
-// One place at the head of a long chain, rewritten by every record: following the chain each time
+// One entry at the head of a long chain, rewritten by every record: following the chain each time
 // would take 10^10 steps.
 TEST(Level, LongChainsRewrittenOftenStayCheap) {
   constexpr Index kMany = 100'000;
@@ -235,6 +235,31 @@ TEST(Level, LongChainsRewrittenOftenStayCheap) {
   level.refine_fully();
   EXPECT_EQ(level.resolved().back(), kMany);
   EXPECT_EQ(level.resolved().front(), kMany);
+}
+
+// A long chain is rewritten until the work granted for it is spent, then a short one once: both
+// have to be up to date, whenever that happens.
+TEST(Level, EveryChainIsUpToDateAfterOneWasRewrittenTooOften) {
+  constexpr Index kLength = 1000;
+  for (Index writes = 120; writes < 180; ++writes) {
+    ProgressiveMesh mesh;
+    mesh.encoding = MapEncoding::offset;
+    mesh.groups.resize(1);
+    mesh.base_vertices = mesh.base_wedges = 1;
+    mesh.base_map.assign(kLength + 2, kSameAsMinus1);
+    mesh.base_map[0] = mesh.base_map[kLength] = 0;
+    mesh.base_map[kLength - 1] = kRestart;
+    mesh.group_entries = {kLength + 2};
+    mesh.position.data.resize(12 * (std::size_t{writes} + 1));
+    mesh.vsplits.assign(writes, {0, 1, 0, 1});
+    mesh.wedge_offset_counts.assign(writes, 1);
+    mesh.map_offsets.assign(writes, 0);
+    mesh.map_offsets.back() = kLength;
+    Level level(mesh);
+    level.refine_fully();
+    EXPECT_EQ(level.resolved()[kLength - 2], writes - 1) << writes;
+    EXPECT_EQ(level.resolved().back(), writes) << writes;
+  }
 }
 
 // [Kim04 Fig. 5]: with symbols fewer entries are rewritten.
