@@ -1,9 +1,8 @@
 # pstrips_decoder: what shows a binary file while it arrives, without OpenSSL, tinyxml2, JSON, fmt and
 # threads. zlib computes checksums; built with PSTRIPS_WITHOUT_ZLIB it needs no library at all.
 set(PSTRIPS_DECODER_FOLDERS core vsplit filter decode pstrip_container pstrip_payload)
-# What those folders have besides: files, threads, stripifiers, recording, writing.
-set(PSTRIPS_DECODER_LEAVES_OUT
-    "/(file|equal_elements|restrip|record|in_order|binary_writer)\\.cpp")
+# What those folders have besides: files, threads, writing.
+set(PSTRIPS_DECODER_LEAVES_OUT "/(file|equal_elements|binary_writer)\\.cpp")
 
 function(pstrips_add_decoder)
   add_library(pstrips_decoder STATIC)

@@ -25,7 +25,7 @@ Inspection inspect(const ProgressiveStrips& strips, const std::vector<std::uint6
     out.vsplits += mesh.vsplits.size();
     out.map_entries += mesh.base_map.size();
     out.map_offsets += mesh.map_offsets.size();
-    levels.emplace_back(mesh, append_degenerate_free_scan);
+    levels.emplace_back(mesh, Filter::dtfs);
     for (const StripRange& range : strip_ranges(mesh.base_map)) {
       const Index entries = range.end - range.first;
       if (entries < 3) continue;

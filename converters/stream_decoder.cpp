@@ -1,16 +1,11 @@
 #include "converters/stream_decoder.h"
 
-#include <cassert>
-
 #include "converters/decode.h"
 
 namespace pstrips::inline converters {
 
-StreamDecoder::StreamDecoder(const Limits& limits, std::string_view filter) : parser_(limits) {
-  const NamedFilter* named = find_display_filter(filter);
-  assert(named);
-  filter_ = named->append;
-}
+StreamDecoder::StreamDecoder(const Limits& limits, Filter filter)
+    : parser_(limits), filter_(filter) {}
 
 Result<void> StreamDecoder::feed(ByteView bytes) {
   const Result<void> fed = parser_.feed(bytes);

@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "codecs/filter/display_level.h"
@@ -22,7 +21,7 @@ namespace pstrips::inline converters {
 /// rewrote. Any prefix of a valid file is shown up to its last whole packet. [spec/container.md §9]
 class StreamDecoder {
  public:
-  explicit StreamDecoder(const Limits& limits = {}, std::string_view filter = "dtfs");
+  explicit StreamDecoder(const Limits& limits = {}, Filter filter = Filter::dtfs);
   StreamDecoder(const StreamDecoder&) = delete;
   StreamDecoder& operator=(const StreamDecoder&) = delete;
 
@@ -60,7 +59,7 @@ class StreamDecoder {
 
  private:
   BinaryParser parser_;
-  AppendFilter filter_;
+  Filter filter_;
   std::deque<DisplayLevel> levels_;  // they do not move
   std::optional<SceneLevel> now_;    // from the last base on
   std::size_t packets_ = 0;

@@ -4,7 +4,7 @@
 
 namespace pstrips::inline codecs {
 
-DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, AppendFilter filter)
+DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, Filter filter)
     : level_(mesh),
       filter_(filter),
       strips_(strip_ranges(level_.resolved())),
@@ -41,8 +41,8 @@ void DisplayLevel::refilter(std::size_t strip) {
   cost_.restarts -= segment.cost.restarts;
   segment.first = pool_.size();
   const StripRange& range = strips_[strip];
-  filter_(level_.resolved().subspan(range.first, range.end - range.first), level_.wedge_vertices(),
-          pool_);
+  append_filtered(filter_, level_.resolved().subspan(range.first, range.end - range.first),
+                  level_.wedge_vertices(), pool_);
   segment.entries = static_cast<Index>(pool_.size() - segment.first);
   segment.cost = display_cost(std::span(pool_).subspan(segment.first));
   used_ += segment.entries;

@@ -11,8 +11,8 @@ namespace pstrips::inline codecs {
 /// rewrote are filtered again. [Kim04 §3.1, the reconstruction stage]
 class DisplayLevel {
  public:
-  /// The mesh must outlive this; `filter` as in display_filters(). O(map) at first.
-  DisplayLevel(const ProgressiveMesh& mesh, AppendFilter filter);
+  /// The mesh must outlive this. O(map) at first.
+  DisplayLevel(const ProgressiveMesh& mesh, Filter filter);
 
   /// Applies the next vsplits. O(entries rewritten); filters nothing yet.
   void refine(Index vsplits);
@@ -35,7 +35,7 @@ class DisplayLevel {
   void compact();
 
   Level level_;
-  AppendFilter filter_;
+  Filter filter_;
   std::vector<StripRange> strips_;
   std::vector<Segment> segments_;  // of the pool, one a strip
   // A restart, then segments that each begin with one; old ones stay until compact().

@@ -6,9 +6,9 @@ namespace pstrips::inline codecs {
 namespace {
 
 constexpr NamedFilter kFilters[] = {
-    {"none", "[Kim04 §5]", append_unfiltered},
-    {"stss", "[Kim04 §2.3]", append_simple_scan},
-    {"dtfs", "[Kim04 §4]", append_degenerate_free_scan},
+    {"none", "[Kim04 §5]", Filter::none},
+    {"stss", "[Kim04 §2.3]", Filter::stss},
+    {"dtfs", "[Kim04 §4]", Filter::dtfs},
 };
 
 void start_strip(DisplayStrips& out) {
@@ -50,15 +50,13 @@ void append_degenerate_free(std::span<const Index> strip, VertexOf&& vertex_of,
   }
 }
 
-}  // namespace
-
-void append_unfiltered(std::span<const Index> strip, std::span<const Index>, DisplayStrips& out) {
+void append_unfiltered(std::span<const Index> strip, DisplayStrips& out) {
   if (strip.size() < 3) return;
   start_strip(out);
   out.insert(out.end(), strip.begin(), strip.end());
 }
 
-void append_simple_scan(std::span<const Index> strip, std::span<const Index>, DisplayStrips& out) {
+void append_simple_scan(std::span<const Index> strip, DisplayStrips& out) {
   if (strip.size() < 3) return;
   const std::size_t before = out.size();
   start_strip(out);
@@ -71,30 +69,40 @@ void append_simple_scan(std::span<const Index> strip, std::span<const Index>, Di
   if (out.size() - start < 3) out.resize(before);
 }
 
-void append_degenerate_free_scan(std::span<const Index> strip, std::span<const Index> wedge_vertex,
-                                 DisplayStrips& out) {
-  if (wedge_vertex.empty())
-    append_degenerate_free(
-        strip, [](Index w) { return w; }, out);
-  else
-    append_degenerate_free(
-        strip, [&](Index w) { return wedge_vertex[w]; }, out);
-}
+}  // namespace
 
 std::span<const NamedFilter> display_filters() { return kFilters; }
 
-const NamedFilter* find_display_filter(std::string_view name) {
+std::optional<Filter> find_display_filter(std::string_view name) {
   const auto* found = std::ranges::find(kFilters, name, &NamedFilter::name);
-  return found == std::end(kFilters) ? nullptr : found;
+  return found == std::end(kFilters) ? std::nullopt : std::optional(found->filter);
+}
+
+void append_filtered(Filter filter, std::span<const Index> strip,
+                     std::span<const Index> wedge_vertex, DisplayStrips& out) {
+  switch (filter) {
+    case Filter::none:
+      return append_unfiltered(strip, out);
+    case Filter::stss:
+      return append_simple_scan(strip, out);
+    case Filter::dtfs:
+      if (wedge_vertex.empty())
+        append_degenerate_free(
+            strip, [](Index w) { return w; }, out);
+      else
+        append_degenerate_free(
+            strip, [&](Index w) { return wedge_vertex[w]; }, out);
+      return;
+  }
 }
 
 DisplayStrips filter_strips(std::span<const Index> resolved, std::span<const Index> wedge_vertex,
-                            AppendFilter filter) {
+                            Filter filter) {
   DisplayStrips out;
   while (!resolved.empty()) {
     const auto restart = std::find(resolved.begin(), resolved.end(), kRestart);
     const auto length = static_cast<std::size_t>(restart - resolved.begin());
-    filter(resolved.first(length), wedge_vertex, out);
+    append_filtered(filter, resolved.first(length), wedge_vertex, out);
     resolved = resolved.subspan(std::min(length + 1, resolved.size()));
   }
   return out;

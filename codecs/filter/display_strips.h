@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,49 +17,48 @@ namespace pstrips::inline codecs {
 
 using DisplayStrips = std::vector<Index>;
 
-/// Appends one strip of the index map to the display strips.
-///
-/// strip         resolved entries without restarts, any number, each < wedge count of the level
-/// wedge_vertex  vertex of each wedge at the level; empty: wedge i is vertex i
-/// out           gets at most 4 entries and a restart a triangle; nothing for a strip without
-///               triangles (append_simple_scan may keep some degenerate entries of it)
-/// cost          O(entries), no allocation but for the growth of `out`
-using AppendFilter = void (*)(std::span<const Index> strip, std::span<const Index> wedge_vertex,
-                              DisplayStrips& out);
-
-/// No filter: all entries.
-void append_unfiltered(std::span<const Index> strip, std::span<const Index> wedge_vertex,
-                       DisplayStrips& out);
-
-/// STSS, the simple triangle strip scanner: drops the first two of four entries (a b a b), a = b
-/// included, until there are none left. The paper shortens runs (a a)+ whatever their length,
-/// which turns the winding after an odd one; dropping pairs keeps it. [Kim04 §2.3]
-void append_simple_scan(std::span<const Index> strip, std::span<const Index> wedge_vertex,
-                        DisplayStrips& out);
-
-/// DTFS, the degenerate triangle-free scanner with local strip reordering: takes the valid
-/// triangles (a b c), (d e f) … of the strip in turn and joins consecutive ones by one entry where
-/// (d e) is (b c), by two where (d e) is (c b), else starts a new strip; a strip that would start
-/// clockwise repeats its first entry. Unlike the paper, wedges are compared, so that a seam parts
-/// strips, and so is parity, so that triangles of conflicting winding do. [Kim04 §4]
-void append_degenerate_free_scan(std::span<const Index> strip, std::span<const Index> wedge_vertex,
-                                 DisplayStrips& out);
+/// How a strip of the index map becomes display strips.
+enum class Filter : std::uint8_t {
+  /// All entries. [Kim04 §5]
+  none,
+  /// The simple triangle strip scanner: drops the first two of four entries (a b a b), a = b
+  /// included, until there are none left. The paper shortens runs (a a)+ whatever their length,
+  /// which turns the winding after an odd one; dropping pairs keeps it. [Kim04 §2.3]
+  stss,
+  /// The degenerate triangle-free scanner with local strip reordering: takes the valid triangles
+  /// (a b c), (d e f) … of the strip in turn and joins consecutive ones by one entry where (d e) is
+  /// (b c), by two where (d e) is (c b), else starts a new strip; a strip that would start
+  /// clockwise
+  /// repeats its first entry. Unlike the paper, wedges are compared, so that a seam parts strips,
+  /// and so is parity, so that triangles of conflicting winding do. [Kim04 §4]
+  dtfs,
+};
 
 struct NamedFilter {
-  std::string_view name;    ///< as on the command line
+  std::string_view name;    ///< as on a command line
   std::string_view source;  ///< key and section in spec/references.md
-  AppendFilter append;
+  Filter filter;
 };
 
 /// "none", "stss" and "dtfs".
 std::span<const NamedFilter> display_filters();
 
-/// nullptr when there is no such name.
-const NamedFilter* find_display_filter(std::string_view name);
+/// Nothing when there is no such name.
+std::optional<Filter> find_display_filter(std::string_view name);
+
+/// Appends one strip of the index map to the display strips.
+///
+/// strip         resolved entries without restarts, any number, each < wedge count of the level
+/// wedge_vertex  vertex of each wedge at the level; empty: wedge i is vertex i
+/// out           gets at most 4 entries and a restart a triangle; nothing for a strip without
+///               triangles (Filter::none and Filter::stss may keep degenerate entries of it)
+/// cost          O(entries), no allocation but for the growth of `out`
+void append_filtered(Filter filter, std::span<const Index> strip,
+                     std::span<const Index> wedge_vertex, DisplayStrips& out);
 
 /// Filters a whole resolved index map.
 DisplayStrips filter_strips(std::span<const Index> resolved, std::span<const Index> wedge_vertex,
-                            AppendFilter filter);
+                            Filter filter);
 
 struct DisplayCost {
   std::uint64_t vertices_sent = 0;  ///< entries without restarts, as the paper counts

@@ -6,7 +6,7 @@ namespace pstrips::inline codecs {
 
 /// Builds new display strips over the triangles of some strips, instead of thinning the old ones
 /// out. The more neighbouring strips come in one call, the better; ten to fifty times the time
-/// of append_degenerate_free_scan. Our own.
+/// of Filter::dtfs. Our own.
 ///
 /// strips        resolved strips of ONE group, parted by restarts
 /// wedge_vertex  vertex of each wedge at the level; empty: wedge i is vertex i

@@ -83,7 +83,7 @@ void read_and_decode(benchmark::State& state, const Sample& sample) {
 }
 
 /// One pass over the strips of a level, `percent` of the way from the base to full resolution.
-void filter(benchmark::State& state, const Sample& sample, AppendFilter append, Index percent) {
+void filter(benchmark::State& state, const Sample& sample, Filter filter_by, Index percent) {
   Level level(sample.mesh());
   level.refine(static_cast<Index>(sample.mesh().vsplits.size() * percent / 100));
   std::int64_t triangles = 0;
@@ -92,7 +92,7 @@ void filter(benchmark::State& state, const Sample& sample, AppendFilter append, 
       [&](Index, Index, Index) { ++triangles; });
   DisplayStrips display;
   for (auto _ : state) {
-    display = filter_strips(level.resolved(), level.wedge_vertices(), append);
+    display = filter_strips(level.resolved(), level.wedge_vertices(), filter_by);
     benchmark::DoNotOptimize(display.data());
   }
   state.SetItemsProcessed(state.iterations() * triangles);
@@ -124,7 +124,7 @@ void add_model(const std::string& name, const Mesh& mesh) {
       for (const Index percent : {0u, 50u, 100u})
         add(name + "/" + filter_name + "/level:" + std::to_string(percent),
             [=](benchmark::State& s) {
-              filter(s, *sample, find_display_filter(filter_name)->append, percent);
+              filter(s, *sample, *find_display_filter(filter_name), percent);
             });
   }
 }

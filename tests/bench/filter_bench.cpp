@@ -54,9 +54,9 @@ std::vector<Snapshot> snapshots(const ProgressiveMesh& mesh) {
   }
 }
 
-using Filter = std::function<DisplayStrips(const Snapshot&)>;
+using MakeDisplay = std::function<DisplayStrips(const Snapshot&)>;
 
-void run(benchmark::State& state, const std::vector<Snapshot>& levels, const Filter& filter) {
+void run(benchmark::State& state, const std::vector<Snapshot>& levels, const MakeDisplay& filter) {
   double vertices = 0, indices = 0, triangles = 0, base_vertices = 0;
   for (const Snapshot& level : levels) {
     const DisplayCost cost = display_cost(filter(level));
@@ -79,7 +79,7 @@ void add_model(const std::string& model, const Mesh& mesh) {
   for (const NamedStripifier& stripifier : stripifiers()) {
     const auto levels =
         std::make_shared<std::vector<Snapshot>>(snapshots(progressive(mesh, stripifier)));
-    const auto add = [&](std::string_view filter_name, const Filter& filter) {
+    const auto add = [&](std::string_view filter_name, const MakeDisplay& filter) {
       const std::string name =
           model + "/" + std::string(stripifier.name) + "/" + std::string(filter_name);
       benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
@@ -88,7 +88,7 @@ void add_model(const std::string& model, const Mesh& mesh) {
     };
     for (const NamedFilter& filter : display_filters())
       add(filter.name,
-          [=](const Snapshot& level) { return filter_strips(level.map, {}, filter.append); });
+          [=](const Snapshot& level) { return filter_strips(level.map, {}, filter.filter); });
     add("restrip", [](const Snapshot& level) { return restrip(level.map, {}); });
   }
 }

@@ -74,8 +74,7 @@ struct Traffic {
 Traffic measure_traffic(const Recording& recording) {
   Traffic out;
   std::vector<DisplayLevel> levels;
-  for (const char* name : kFilters)
-    levels.emplace_back(recording.mesh, find_display_filter(name)->append);
+  for (const char* name : kFilters) levels.emplace_back(recording.mesh, *find_display_filter(name));
   const std::size_t all = splits_of(recording.mesh);
   for (std::size_t done = 0; done <= all; ++done) {
     Row row{recording.levels[done].triangles, {}};
@@ -92,7 +91,7 @@ Traffic measure_traffic(const Recording& recording) {
 }
 
 // Mean time to filter the whole map, over eleven levels; the best of five passes each.
-double filter_microseconds(const ProgressiveMesh& mesh, AppendFilter filter) {
+double filter_microseconds(const ProgressiveMesh& mesh, Filter filter) {
   Level level(mesh);
   const auto splits = static_cast<Index>(splits_of(mesh));
   const Index step = std::max<Index>(splits / 10, 1);
@@ -144,8 +143,8 @@ void print_tables(const std::string& name, const Mesh& mesh, const NamedStripifi
              static_cast<double>(traffic.sent[2]) / 1e6);
   fmt::print("| below PM | | {:.1f} % | {:.1f} % | {:.1f} % |\n", below(traffic.sent[0]),
              below(traffic.sent[1]), below(traffic.sent[2]));
-  const double stss = filter_microseconds(offset, append_simple_scan);
-  const double dtfs = filter_microseconds(offset, append_degenerate_free_scan);
+  const double stss = filter_microseconds(offset, Filter::stss);
+  const double dtfs = filter_microseconds(offset, Filter::dtfs);
   fmt::print("| filter time, µs | | | {:.0f} | {:.0f} ({:.2f} of STSS) |\n\n", stss, dtfs,
              dtfs / stss);
 }

@@ -189,7 +189,7 @@ TEST(StreamDecoder, FiltersOnlyWhatAPacketRewrote) {
   Model model;
   model.meshes = {test::grid(60)};
   const Sample s = sample(std::move(model), {.packet_min = 4});
-  DisplayLevel level(s.strips.meshes[0], append_degenerate_free_scan);
+  DisplayLevel level(s.strips.meshes[0], Filter::dtfs);
   level.refine(4);
   const std::size_t filtered = level.update();
   EXPECT_GT(filtered, 0u);

@@ -68,7 +68,7 @@ const Case kCases[] = {
 TEST(DisplayFilters, ByExample) {
   for (const Case& c : kCases) {
     SCOPED_TRACE(testing::Message() << c.filter << ": " << c.name);
-    const Map display = filter_strips(c.map, c.wedge_vertex, find_display_filter(c.filter)->append);
+    const Map display = filter_strips(c.map, c.wedge_vertex, *find_display_filter(c.filter));
     EXPECT_EQ(display, c.display);
     EXPECT_EQ(triangles_of(display, c.wedge_vertex), triangles_of(c.map, c.wedge_vertex));
   }
@@ -90,7 +90,7 @@ RC_GTEST_PROP(DisplayFilters, KeepTheTrianglesOfAnyMap, ()) {
   const auto expected = triangles_of(map, wedge_vertex);
   for (const NamedFilter& filter : display_filters()) {
     RC_LOG() << filter.name;
-    const Map display = filter_strips(map, wedge_vertex, filter.append);
+    const Map display = filter_strips(map, wedge_vertex, filter.filter);
     RC_ASSERT(triangles_of(display, wedge_vertex) == expected);
     const DisplayCost cost = display_cost(display);
     if (filter.name == "dtfs") RC_ASSERT(cost.vertices_sent <= 4 * expected.size());
@@ -113,7 +113,7 @@ RC_GTEST_PROP(DisplayFilters, KeepTheTrianglesOfCollapsedStrips, (std::uint32_t 
   const auto expected = triangles_of(map, {});
   for (const NamedFilter& filter : display_filters()) {
     RC_LOG() << filter.name;
-    RC_ASSERT(triangles_of(filter_strips(map, {}, filter.append), {}) == expected);
+    RC_ASSERT(triangles_of(filter_strips(map, {}, filter.filter), {}) == expected);
   }
   RC_ASSERT(triangles_of(restrip(map, {}), {}) == expected);
 }
