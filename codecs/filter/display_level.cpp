@@ -10,28 +10,35 @@ DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, Filter filter)
       strips_(strip_ranges(level_.resolved())),
       segments_(strips_.size()),
       filtered_to_(level_.next()),
-      is_touched_(strips_.size()) {
+      is_changed_(strips_.size()) {
+  level_.track_reassigned();
   for (std::size_t s = 0; s < strips_.size(); ++s) refilter(s);
 }
 
 void DisplayLevel::refine(Index vsplits) { level_.refine(vsplits); }
 
-std::size_t DisplayLevel::update() {
-  touched_.clear();
-  for (const Index offset : level_.offsets_since(filtered_to_)) {
-    const auto after = std::ranges::upper_bound(strips_, offset, {}, &StripRange::first);
+void DisplayLevel::mark_changed(std::span<const Index> entries) {
+  for (const Index entry : entries) {
+    const auto after = std::ranges::upper_bound(strips_, entry, {}, &StripRange::first);
     const auto strip = static_cast<Index>(after - strips_.begin() - 1);
-    if (is_touched_[strip]) continue;
-    is_touched_[strip] = true;
-    touched_.push_back(strip);
+    if (is_changed_[strip]) continue;
+    is_changed_[strip] = true;
+    changed_.push_back(strip);
   }
+}
+
+// Entries that follow a written one are in its strip.
+std::size_t DisplayLevel::update() {
+  changed_.clear();
+  mark_changed(level_.offsets_since(filtered_to_));
+  mark_changed(level_.take_reassigned());
   filtered_to_ = level_.next();
-  for (const Index strip : touched_) {
+  for (const Index strip : changed_) {
     refilter(strip);
-    is_touched_[strip] = false;
+    is_changed_[strip] = false;
   }
   if (pool_.size() > 2 * used_ + 1024) compact();
-  return touched_.size();
+  return changed_.size();
 }
 
 void DisplayLevel::refilter(std::size_t strip) {

@@ -8,7 +8,7 @@
 namespace pstrips::inline codecs {
 
 /// A level and its display strips, kept in step: after some vsplits only the strips that they
-/// rewrote are filtered again. [Kim04 §3.1, the reconstruction stage]
+/// changed are filtered again. [Kim04 §3.1, the reconstruction stage]
 class DisplayLevel {
  public:
   /// The mesh must outlive this. O(map) at first.
@@ -18,7 +18,7 @@ class DisplayLevel {
   void refine(Index vsplits);
   const Level& level() const { return level_; }
 
-  /// Filters what has been rewritten since the last call; returns how many strips that were.
+  /// Filters what has changed since the last call; returns how many strips that were.
   std::size_t update();
   /// Appends the display strips as of the last update(), restarts included. O(their size).
   void append_display(DisplayStrips& out) const;
@@ -31,6 +31,7 @@ class DisplayLevel {
     Index entries = 0;
     DisplayCost cost;
   };
+  void mark_changed(std::span<const Index> entries);
   void refilter(std::size_t strip);
   void compact();
 
@@ -42,8 +43,8 @@ class DisplayLevel {
   DisplayStrips pool_{kRestart};
   std::size_t used_ = 0;        // entries of the pool in segments
   RecordStart filtered_to_;     // the first record that is not in the pool
-  std::vector<Index> touched_;  // scratch of update()
-  std::vector<bool> is_touched_;
+  std::vector<Index> changed_;  // strips; scratch of update()
+  std::vector<bool> is_changed_;
   DisplayCost cost_;
 };
 

@@ -85,10 +85,26 @@ void Level::refine(Index vsplits) {
     const Vsplit& split = mesh_->vsplits[next_.vsplit];
     if (moves) place(split, vertex_count());
     state_.grant_work(std::uint64_t{split.map_offsets} + split.reassigned);
-    state_.apply(record_at(*mesh_, next_), kUnobserved, kUnobserved);
+    VsplitRecord record = record_at(*mesh_, next_);
+    if (tracks_reassigned_ && !record.reassigned.empty()) reassign(record);
+    state_.apply(record, kUnobserved, kUnobserved);
     next_.skip(split);
   }
-  if (state_.is_exhausted()) state_.resolve_again();
+  if (!state_.is_exhausted()) return;
+  state_.resolve_again();
+  if (!lists_uses_) return;
+  reassigned_entries_.clear();  // not all were reported
+  for (Index i = 0; i < resolved().size(); ++i)
+    if (resolved()[i] != kRestart) reassigned_entries_.push_back(i);
+}
+
+// Takes the first step of the record and notes which entries it changes.
+void Level::reassign(VsplitRecord& record) {
+  if (!lists_uses_) state_.list_uses();
+  lists_uses_ = true;
+  for (const Index wedge : std::exchange(record.reassigned, {}))
+    state_.reassign(wedge, record.vertex,
+                    [this](Index entry) { reassigned_entries_.push_back(entry); });
 }
 
 // Where the record's vertices stand after it.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/progressive_strips.h"
@@ -40,6 +41,13 @@ class Level {
   void refine(Index vsplits);
   /// Up to the last record the mesh has.
   void refine_fully() { refine(kNone); }
+  /// From now on keeps the entries that come to show another vertex though no record writes them:
+  /// those of reassigned wedges. A change then costs up to three times as much, in meshes that
+  /// reassign wedges.
+  void track_reassigned() { tracks_reassigned_ = true; }
+  /// Those entries since the last call, in any order; some may not have changed in the end.
+  std::vector<Index> take_reassigned() { return std::exchange(reassigned_entries_, {}); }
+
   /// Frees what only refine() needs; it must not be called again.
   void release_symbols() { state_.release_symbols(); }
 
@@ -68,11 +76,14 @@ class Level {
 
  private:
   void place(const Vsplit& split, Index vertex);
+  void reassign(VsplitRecord& record);
 
   const ProgressiveMesh* mesh_;
   StripState state_;
   RecordStart next_;
   Bytes moved_positions_;  // with optimal placement
+  bool tracks_reassigned_ = false, lists_uses_ = false;
+  std::vector<Index> reassigned_entries_;
 };
 
 /// The mesh that a level shows, in decoded numbering. At the full level the faces of the face table
