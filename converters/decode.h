@@ -9,11 +9,12 @@ namespace pstrips::inline converters {
 
 /// How far to refine; the first limit that is set decides.
 struct LevelChoice {
-  std::int64_t packets = -1;  ///< so many packets of the file, in file order
-  std::int64_t triangles =
-      -1;             ///< the most packets whose triangles, all meshes together, do not exceed this
-  double error = -1;  ///< the fewest packets after which the scene's error is at most this, see
-                      ///< SceneLevel
+  /// So many packets of the file, in file order.
+  std::int64_t packets = -1;
+  /// The most packets whose triangles, all meshes together, do not exceed this.
+  std::int64_t triangles = -1;
+  /// The fewest packets after which the scene's error is at most this, see SceneLevel.
+  double error = -1;
 };
 
 /// How many packets a choice comes to; all of them when nothing is set. The base always counts, so
@@ -36,8 +37,8 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets);
 Result<Mesh> decoded_mesh(const Level& level);
 
 /// A shorter progressive file: the first `packets` packets, complete in itself even if `strips` is
-/// not. What belongs to the
-/// full resolution only (order, face table, digest) is left out of the meshes that are cut.
+/// not. What belongs to the full resolution only (order, face table, digest) is left out of the
+/// meshes that are cut.
 ProgressiveStrips cut(const ProgressiveStrips& strips, std::size_t packets);
 
 }  // namespace pstrips::inline converters

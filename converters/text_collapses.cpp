@@ -80,14 +80,14 @@ CollapseSequence collapses_of(const TextProgressive& text) {
   CollapseSequence out;
   const std::vector<bool> drawn = drawn_vertices(text.mesh);
   Replay replay(text.mesh);
-  Attribute places = text.mesh.position;
-  places.data = text.kept_position;
+  Attribute positions = text.mesh.position;
+  positions.data = text.kept_position;
   for (std::size_t i = 0; i < text.collapses.size(); ++i) {
     const TextCollapse& c = text.collapses[i];
     if (c.kept == kNone || !drawn[c.removed] || !drawn[c.kept]) continue;
     replay.collapse(c.removed, c.kept, out);
-    for (std::size_t k = 0; k < 3 && !places.data.empty(); ++k)
-      out.placements.push_back(component(places, i, k));
+    for (std::size_t k = 0; k < 3 && !positions.data.empty(); ++k)
+      out.placements.push_back(component(positions, i, k));
   }
   return out;
 }

@@ -23,9 +23,10 @@ enum class Placement : std::uint8_t {
 /// One refinement step. The new vertex takes the next free index, as do its new wedges.
 /// [Kim04 §3.2 eq. 2; spec/vsplit.md]
 struct Vsplit {
-  Index parent;      ///< vertex that is split, or the new vertex's own index: it appears on its own
-  Index wedges;      ///< how many new wedges the new vertex brings
-  Index reassigned;  ///< how many wedges it takes over from the parent
+  /// The vertex that is split, or the new vertex's own index: it appears on its own.
+  Index parent;
+  Index wedges;       ///< how many new wedges the new vertex brings
+  Index reassigned;   ///< how many wedges it takes over from the parent
   Index map_offsets;  ///< how many index-map entries are rewritten, over all new wedges
   friend bool operator==(const Vsplit&, const Vsplit&) = default;
 };
@@ -63,11 +64,11 @@ struct ProgressiveMesh {
   std::string name;
   MapEncoding encoding = MapEncoding::naive;
   Placement placement = Placement::subset;
-  /// No wedge lists at all: wedge i is vertex i, each vsplit brings one wedge and carries none.
+  /// No wedge lists at all: wedge i is vertex i, each vsplit brings one wedge and reassigns none.
   bool single_wedges = true;
   std::vector<Group> groups;
-  std::vector<Index>
-      group_entries;  ///< index-map entries (restarts included) of each group, in order
+  /// Index-map entries (restarts included) of each group, in order.
+  std::vector<Index> group_entries;
 
   Attribute position;
   std::vector<Attribute> wedge_attributes;
@@ -81,7 +82,7 @@ struct ProgressiveMesh {
 
   // Vertex splits, and their lists one after the other.
   std::vector<Vsplit> vsplits;
-  Bytes parent_position;  ///< with free placement: the parent's position after each split
+  Bytes parent_position;  ///< with optimal placement: the parent's position after each split
   /// Per new wedge, with single wedges too: how many entries it is written to.
   std::vector<Index> wedge_offset_counts;
   std::vector<Index> map_offsets;  ///< map offsets, ascending within a wedge
@@ -101,8 +102,8 @@ struct Packet {
   Index mesh = 0;
   Index first_vsplit = 0;
   Index vsplits = 0;
-  Index vertices = 0, triangles = 0,
-        strips = 0;  ///< of that mesh after the packet; strips with triangles
+  /// Of that mesh after the packet; strips with triangles.
+  Index vertices = 0, triangles = 0, strips = 0;
   // Bounds of the distance to the full-resolution mesh after the packet, model units, not rising
   // within a mesh, 0 after its last packet. [spec/model.md §5]
   float error = 0;            ///< two-sided, the Hausdorff distance: what levels are chosen by

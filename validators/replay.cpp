@@ -111,7 +111,7 @@ class Records {
     return true;
   }
 
-  /// With free placement: the record gives its own vertex two positions.
+  /// With optimal placement: the record gives its own vertex two positions.
   bool moves(Index vertex) const {
     if (mesh_.placement != Placement::optimal) return false;
     const std::size_t bytes = mesh_.position.element_bytes();

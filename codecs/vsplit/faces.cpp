@@ -77,8 +77,7 @@ FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, cons
   // The strips' triangles in map order.
   FaceRecord out;
   TriangleFinder finder(source, triangles);
-  std::vector<Index> map_triangle(
-      triangles.face.size());  // of each source triangle, its place in the map
+  std::vector<Index> map_triangle(triangles.face.size());  // of each source triangle, in map order
   Index t = 0;
   std::size_t first = 0;
   for (Index g = 0; g < strips.group_entries.size(); ++g) {

@@ -61,7 +61,7 @@ class Recorder {
   void find_triangles();
   void fetch(std::span<const WedgeMove> moves);
   void collapse(const Collapse& collapse, std::span<const WedgeMove> moves);
-  void carry(Index wedge, Index kept);
+  void reassign(Index wedge, Index kept);
   void remove_wedge(Index wedge, Index replacement);
   void place(Index vertex, std::span<const double> position);
   void rewrite(Index at, Index to);
@@ -76,7 +76,7 @@ class Recorder {
   void write_base(const Numbering& numbers);
 
   static constexpr std::size_t kFetched = 32;  // moves at a time
-  // Restarts before and behind the map, so that neighbours of entries may be looked at unasked.
+  // Restarts before and behind the map, so that neighbours of entries need no check.
   static constexpr std::size_t kMargin = 2;
 
   const Mesh& mesh_;
@@ -275,7 +275,7 @@ void Recorder::collapse(const Collapse& collapse, std::span<const WedgeMove> mov
     const Index first = first_entry_[move.from];
     if (first == kRemoved) continue;
     if (move.to == kNone && first != kNone)
-      carry(move.from, collapse.kept);
+      reassign(move.from, collapse.kept);
     else
       remove_wedge(move.from, move.to);
   }
@@ -283,7 +283,7 @@ void Recorder::collapse(const Collapse& collapse, std::span<const WedgeMove> mov
 }
 
 // The wedge keeps its entries and stands at another vertex.
-void Recorder::carry(Index wedge, Index kept) {
+void Recorder::reassign(Index wedge, Index kept) {
   if (wedge_vertex_.empty()) {
     wedge_vertex_.resize(mesh_.wedge_count());
     std::iota(wedge_vertex_.begin(), wedge_vertex_.end(), Index{0});

@@ -32,7 +32,7 @@ struct StripMap {
 ///
 /// Exact whatever the collapses are: a record says which entries to write, nothing is inferred.
 /// Vertices that stand in no strip come last, as vsplits without a parent. A wedge that the
-/// sequence carries but no strip holds appears with its vertex instead.
+/// sequence keeps but no strip holds appears with its vertex instead.
 ///
 /// With optimal placement (the sequence has placements) each record says where its parent stood
 /// before the collapse, in the format of the mesh's positions, to which placements are rounded.

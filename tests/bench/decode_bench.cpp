@@ -46,7 +46,7 @@ void refine(benchmark::State& state, const Sample& sample) {
     benchmark::DoNotOptimize(level.resolved().data());
   }
   state.SetItemsProcessed(state.iterations() * sample.vsplits());  // vsplits/s
-  state.counters["places_per_vsplit"] =
+  state.counters["map_offsets_per_vsplit"] =
       static_cast<double>(sample.mesh().map_offsets.size()) / static_cast<double>(sample.vsplits());
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kHeader = "# pstrips text ";
 
-/// Words of a file with their places; the first failure sticks and ends the words.
+/// Words of a file with their positions; the first failure sticks and ends the words.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}

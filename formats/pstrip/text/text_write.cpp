@@ -9,7 +9,7 @@ namespace pstrips::inline formats {
 namespace {
 
 /// How much work a replay may do for each byte of Limits::memory_bytes: what is kept of an entry
-/// that a record touches takes less than 64 bytes.
+/// that a record changes takes less than 64 bytes.
 constexpr std::uint64_t kBytesPerEntry = 64;
 
 /// A mesh between two records, and what the last record changed. [spec/vsplit.md]

@@ -155,7 +155,7 @@ void expect_exact(const Scenario& s, MapEncoding encoding) {
   ASSERT_EQ(recording.levels.size(), recording.mesh.vsplits.size() + 1);
   for (std::size_t k = 0; k < recording.levels.size(); ++k) {
     const auto shown = shown_by(level, recording);
-    const std::size_t expected = std::min(k, s.levels.size() - 1);  // lone vertices come last
+    const std::size_t expected = std::min(k, s.levels.size() - 1);  // isolated vertices come last
     ASSERT_EQ(shown, s.levels[expected]) << "after " << k << " vsplits";
     ASSERT_EQ(recording.levels[k].triangles, shown.size());
     level.refine(1);
