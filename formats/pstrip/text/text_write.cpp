@@ -3,6 +3,7 @@
 #include "core/strip_state.h"
 #include "formats/pstrip/numbers.h"
 #include "formats/pstrip/text/face_finder.h"
+#include "formats/pstrip/text/losses.h"
 #include "formats/pstrip/text/text.h"
 
 namespace pstrips::inline formats {
@@ -66,11 +67,6 @@ Error error_of(Replay::Outcome outcome, Index mesh, Index vsplit) {
           broken ? "record changes an entry or a wedge that is not its parent's"
                  : "text needs more memory than the limit",
           kNoOffset, "/meshes/" + std::to_string(mesh) + "/vsplits/" + std::to_string(vsplit)};
-}
-
-const Attribute* texture_of(const ProgressiveMesh& mesh) {
-  const auto found = std::ranges::find(mesh.wedge_attributes, "TEXCOORD_0", &Attribute::semantic);
-  return found == mesh.wedge_attributes.end() ? nullptr : &*found;
 }
 
 /// For each entry of the map, which texture index its corner has, in numbers of the mesh.
@@ -393,76 +389,6 @@ class MeshWriter {
   Bytes positions_;                   // where vertices stand now
 };
 
-/// Collects what a text file has no place for.
-class Losses {
- public:
-  void add(bool lost, std::string phrase) {
-    if (lost && std::ranges::find(list_, phrase) == list_.end()) list_.push_back(std::move(phrase));
-  }
-  void count(std::uint64_t n, const char* phrase) { add(n > 0, std::to_string(n) + phrase); }
-  std::vector<std::string> take() && { return std::move(list_); }
-
- private:
-  std::vector<std::string> list_;
-};
-
-void note_scene(const ProgressiveStrips& strips, Losses& losses) {
-  const Scene& scene = strips.scene;
-  losses.add(strips.meshes.size() > 1, "that there are several meshes: they are joined");
-  losses.add(!scene.nodes.empty(), "scene nodes");
-  losses.add(!scene.materials.empty(), "materials");
-  losses.add(!scene.images.empty(), "images");
-  losses.add(!scene.foreign.empty(), "what the source format keeps for itself");
-  losses.add(!strips.unknown.empty(), "chunks that nobody knows");
-}
-
-void note_attributes(const ProgressiveMesh& mesh, bool textured, Losses& losses) {
-  losses.add(mesh.position.count > 3, "position components past the third");
-  losses.add(mesh.position.count < 3, "that positions have fewer than three components");
-  losses.add(mesh.position.normalized, "normalization of positions");
-  losses.add(mesh.position.semantic != "POSITION", "the semantic " + mesh.position.semantic);
-  const Attribute* texture = textured ? texture_of(mesh) : nullptr;
-  for (const Attribute& a : mesh.wedge_attributes)
-    losses.add(&a != texture, "attribute " + a.semantic);
-  if (texture != nullptr) {
-    losses.add(texture->count != 2, "that TEXCOORD_0 has not two components");
-    losses.add(texture->normalized, "normalization of TEXCOORD_0");
-  }
-  for (const Attribute& a : mesh.face_attribute_formats)
-    losses.add(true, "face attribute " + a.semantic);
-}
-
-void note_faces(const ProgressiveStrips& strips, Losses& losses) {
-  std::uint64_t polygons = 0, lines = 0, points = 0, degenerate = 0;
-  for (const ProgressiveMesh& mesh : strips.meshes)
-    for (Index f = 0; f < mesh.faces.count(); ++f) {
-      const FaceKind kind = mesh.groups[mesh.faces.group[f]].kind;
-      const bool shown = mesh.faces.replaced_first[f] != mesh.faces.replaced_first[f + 1];
-      lines += kind == FaceKind::lines;
-      points += kind == FaceKind::points;
-      polygons += kind == FaceKind::polygons && shown;
-      degenerate += kind == FaceKind::polygons && !shown;
-    }
-  losses.count(polygons, " polygons: their triangles are written");
-  losses.count(lines, " lines");
-  losses.count(points, " points");
-  losses.count(degenerate, " degenerate faces");
-}
-
-void note_meshes(const ProgressiveStrips& strips, bool textured, Losses& losses) {
-  for (const ProgressiveMesh& mesh : strips.meshes) {
-    losses.add(!mesh.name.empty(), "names of meshes");
-    losses.add(mesh.groups.size() > 1, "groups");
-    losses.add(std::ranges::any_of(mesh.groups, [](const Group& g) { return !g.name.empty(); }),
-               "names of groups");
-    losses.add(std::ranges::any_of(mesh.groups, [](const Group& g) { return g.material != kNone; }),
-               "which group has which material");
-    note_attributes(mesh, textured, losses);
-    losses.add(mesh.order != OriginalOrder{}, "original order");
-    losses.add(!mesh.digest.empty(), "digest");
-  }
-}
-
 /// The type of an attribute when all meshes agree, else the one that holds them all.
 template <class AttributeOf>
 ComponentType common_type(const ProgressiveStrips& strips, AttributeOf&& attribute_of) {
@@ -505,11 +431,7 @@ Result<TextFile> write_text(const ProgressiveStrips& strips, const Limits& limit
   const bool textured =
       !strips.meshes.empty() &&
       std::ranges::all_of(strips.meshes, [](const auto& m) { return texture_of(m) != nullptr; });
-  Losses losses;
-  losses.add(true, "triangle strips, packets and errors of levels");
-  note_scene(strips, losses);
-  note_meshes(strips, textured, losses);
-  note_faces(strips, losses);
+  Losses losses = losses_of(strips, textured);
 
   std::uint64_t key = 0;
   std::vector<MeshWriter> meshes;
