@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -45,7 +46,7 @@ void for_each_follower(Index at, std::vector<Index>& pending, Repeats&& repeats,
   pending.clear();
   while (visit(at)) {
     for (const int d : {-2, -1, 1, 2})
-      if (const std::ptrdiff_t from = std::ptrdiff_t{at} - d; repeats(from, d))
+      if (const std::int64_t from = std::int64_t{at} - d; repeats(from, d))
         pending.push_back(static_cast<Index>(from));
     if (pending.empty()) return;
     at = pending.back();
