@@ -5,8 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/number_options.h"
 #include "cli/option_groups.h"
-#include "cli/output.h"
+#include "cli/progress_bar.h"
+#include "cli/report.h"
+#include "cli/table.h"
+#include "converters/files.h"
 
 namespace pstrips::cli {
 namespace {
@@ -19,35 +23,35 @@ struct Options {
   LimitOptions limits;
 };
 
-std::string_view name_of(Likeness likeness) {
-  switch (likeness) {
-    case Likeness::exact:
+std::string_view name_of(Equivalence equivalence) {
+  switch (equivalence) {
+    case Equivalence::exact:
       return "exact";
-    case Likeness::reordered:
+    case Equivalence::reordered:
       return "reordered";
-    case Likeness::different:
+    case Equivalence::different:
       return "different";
   }
   return {};
 }
 
 void print_text(std::ostream& out, const Comparison& c) {
-  switch (c.likeness) {
-    case Likeness::exact:
+  switch (c.equivalence) {
+    case Equivalence::exact:
       out << "exact: same vertices, wedges and faces in the same order\n";
       break;
-    case Likeness::reordered:
+    case Equivalence::reordered:
       out << "reordered: same vertices, wedges and faces in another order\n";
       break;
-    case Likeness::different:
+    case Equivalence::different:
       out << "different\n";
       break;
   }
-  if (c.likeness != Likeness::different) return;
+  if (c.equivalence != Equivalence::different) return;
   for (const std::string& d : c.differences) out << "  " << escaped(d) << "\n";
   for (const AttributeDifference& a : c.attributes)
-    out << "  " << escaped(a.semantic) << " differs by up to " << figure(a.largest) << "\n";
-  out << "  Hausdorff distance " << figure(c.hausdorff) << ", RMS " << figure(c.rms)
+    out << "  " << escaped(a.semantic) << " differs by up to " << four_digits(a.largest) << "\n";
+  out << "  Hausdorff distance " << four_digits(c.hausdorff) << ", RMS " << four_digits(c.rms)
       << " (of the bounding-box diagonal)\n";
 }
 
@@ -72,7 +76,7 @@ void print_json(std::ostream& out, const Comparison& c, const Refusal* refusal,
     json["error"] = json_of<Json>(refusal->error);
     json["error"]["file"] = escaped(refusal->file);
   } else {
-    json["result"] = name_of(c.likeness);
+    json["result"] = name_of(c.equivalence);
     json["hausdorff"] = c.hausdorff;
     json["rms"] = c.rms;
   }
@@ -85,33 +89,56 @@ void print_json(std::ostream& out, const Comparison& c, const Refusal* refusal,
   out << json.dump(2) << "\n";
 }
 
-Result<Model> open_model(const std::string& path, const Options& options) {
+struct Opened {
+  Model model;
+  bool has_levels = false;
+};
+
+Result<Opened> open_model(const std::string& path, const Options& options) {
   // A text record is compared in the order in which it stands.
   auto file = load(path, {.limits = options.limits.limits,
                           .allow_prefix = false,
                           .text_options = {.keep_order = true}});
   if (!file) return tl::unexpected(file.error());
-  return std::move(*file).model(options.level.choice);
+  Opened out{.model = {}, .has_levels = file->is_progressive()};
+  LevelChoice choice;
+  if (out.has_levels) {
+    const auto chosen = options.level.choice(std::get<ProgressiveStrips>(file->content));
+    if (!chosen) return tl::unexpected(chosen.error());
+    choice = *chosen;
+  }
+  auto model = std::move(*file).model(choice);
+  if (!model) return tl::unexpected(model.error());
+  out.model = std::move(model).value();
+  return out;
 }
 
 ExitCode run(const Options& options, const Streams& io) {
-  Model models[2];
-  for (int i = 0; i < 2; ++i) {
-    const std::string& path = i == 0 ? options.a : options.b;
-    auto model = open_model(path, options);
-    if (!model) {
-      const Refusal refusal{path, model.error()};
+  ProgressBar bar(io);
+  std::vector<Opened> opened;
+  for (const std::string& path : {options.a, options.b}) {
+    bar.show("read", 0.2 * static_cast<double>(opened.size()));
+    auto one = open_model(path, options);
+    if (!one) {
+      bar.clear();
+      const Refusal refusal{path, one.error()};
       if (options.format.json()) print_json(io.out, {}, &refusal, options);
-      return complain(io, refusal.error, path);
+      return report(io, refusal.error, path);
     }
-    models[i] = std::move(model).value();
+    opened.push_back(std::move(one).value());
   }
-  const Comparison c = compare(models[0], models[1], options.samples);
+  if (options.level.given() && !opened[0].has_levels && !opened[1].has_levels) {
+    bar.clear();
+    return report(io, {ErrorCode::bad_argument, "a level does nothing: neither file has levels"});
+  }
+  bar.show("compare", 0.4);
+  const Comparison c = compare(opened[0].model, opened[1].model, options.samples);
+  bar.clear();
   if (options.format.json())
     print_json(io.out, c, nullptr, options);
   else
     print_text(io.out, c);
-  return c.likeness == Likeness::different ? kDifference : kOk;
+  return c.equivalence == Equivalence::different ? kDifference : kOk;
 }
 
 }  // namespace
@@ -122,9 +149,9 @@ Command add_compare(CLI::App& root) {
       root.add_subcommand("compare", "Say whether two models are the same, or how far apart");
   app->add_option("a", options->a, "A model or progressive file")->required();
   app->add_option("b", options->b, "Another, in any format")->required();
-  app->add_option("--samples", options->samples, "Points on each surface for distances")
-      ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}))
-      ->capture_default_str();
+  takes_count(app->add_option("--samples", options->samples, "Points on each surface for distances")
+                  ->capture_default_str(),
+              1, 100'000'000);
   options->format.add_to(*app, {"text", "json"});
   options->level.add_to(*app);
   options->limits.add_to(*app);

@@ -1,45 +1,52 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
+#include "cli/attribute_names.h"
 #include "cli/command.h"
 #include "cli/option_groups.h"
-#include "cli/output.h"
+#include "cli/output_option.h"
+#include "cli/progress_bar.h"
+#include "cli/report.h"
+#include "cli/table.h"
 #include "core/parallel.h"
 
 namespace pstrips::cli {
 namespace {
 
 struct Options {
-  std::string input, output;
+  std::string input;
   std::string attributes;
   bool verbose = false;
   bool ascii = false, gltf_strips = false, prefix = false;
-  TargetOption target;
+  OutputOption output;
   EncodeOptionsGroup encode;
   LevelOptions level;
   LimitOptions limits;
 };
 
-void report(const Streams& io, const Options& options, const LoadedFile& input,
-            const SavedFiles& saved) {
-  note(io, options.output, saved.notes);
-  if (io.quiet || options.output == "-") return;
-  io.err << fmt::format("{} ({}) -> {} ({})\n", escaped(options.input), byte_size(input.bytes),
-                        escaped(options.output), byte_size(saved.bytes()));
-}
+// A file on its way from input to output; errors are of the one or of the other.
+struct Conversion {
+  const Options& options;
+  const Streams& io;
+  FileFormat target;
+  EncodeOptions encode;
+  ProgressBar bar{io};
+  std::vector<SimplifyReport> simplified{};
+};
 
-std::string constraints_of(const ConstraintCounts& counts) {
-  return fmt::format("{} by border, {} by topology, {} by flipped faces, {} by flipped texture",
-                     grouped(counts.border), grouped(counts.link), grouped(counts.flip),
-                     grouped(counts.texture));
+std::string counts_of(const ConstraintCounts& counts) {
+  return fmt::format(
+      "{} by border, {} by topology,\n    {} by flipped faces, {} by flipped texture",
+      grouped(counts.border), grouped(counts.link), grouped(counts.flip), grouped(counts.texture));
 }
 
 std::string_view reason_of(SimplifyStop stop) {
   switch (stop) {
     case SimplifyStop::target:
-      return "as asked";
+      return "as wanted";
     case SimplifyStop::max_error:
       return "the rest is above the error limit";
     case SimplifyStop::exhausted:
@@ -50,7 +57,7 @@ std::string_view reason_of(SimplifyStop stop) {
   return "interrupted";
 }
 
-// All of it when asked for, else only of meshes that came out larger than wanted.
+// All of it when verbose, else only of meshes that came out larger than wanted.
 void report_simplification(const Streams& io, const std::vector<SimplifyReport>& meshes,
                            bool verbose) {
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -58,8 +65,8 @@ void report_simplification(const Streams& io, const std::vector<SimplifyReport>&
     if (!verbose && (io.quiet || r.stop != SimplifyStop::exhausted)) continue;
     io.err << fmt::format("mesh {} \"{}\": {} -> {} triangles, {}\n", m, escaped(r.mesh),
                           grouped(r.triangles), grouped(r.base_triangles), reason_of(r.stop));
-    io.err << fmt::format("  collapses put off: {}\n", constraints_of(r.refused));
-    io.err << fmt::format("  taken nevertheless: {}\n", constraints_of(r.forced));
+    io.err << fmt::format("  collapses put off: {}\n", counts_of(r.refused));
+    io.err << fmt::format("  taken nevertheless: {}\n", counts_of(r.forced));
   }
 }
 
@@ -70,70 +77,146 @@ MeshStatistics statistics_of(const Model& model) {
   return all;
 }
 
+Result<void> does_nothing(const std::string& option, const std::string& why) {
+  return fail(ErrorCode::bad_argument, option + " does nothing " + why);
+}
+
+// Options that an output of this format has no use for.
+Result<void> check_target(const Options& options, FileFormat target) {
+  const std::string why = fmt::format("for a {} file", name_of(target));
+  if (options.ascii && !holds(target, Feature::text_and_binary))
+    return does_nothing("--ascii", why);
+  if (options.gltf_strips && !holds(target, Feature::separate_strips))
+    return does_nothing("--gltf-strips", why);
+  const std::string first = options.encode.first_given();
+  if (!first.empty() && !is_progressive(target)) return does_nothing(first, why);
+  return {};
+}
+
 // Strips to strips keeps the records; anything else goes through the mesh.
 bool keeps_records(const Options& options, const LoadedFile& file, FileFormat target) {
   return file.is_progressive() && is_progressive(target) && !options.level.given() &&
          options.attributes.empty();
 }
 
+Result<void> check_input(const Options& options, const LoadedFile& file, FileFormat target) {
+  if (options.level.given() && !file.is_progressive())
+    return fail(ErrorCode::unsupported, "has no levels");
+  // A text record gets its strips and its order here; the others have them.
+  const std::string first = options.encode.first_given();
+  if (!first.empty() && file.format != FileFormat::pm && keeps_records(options, file, target))
+    return does_nothing(first,
+                        "to progressive strips, which stay as they are; convert to a model "
+                        "first");
+  return {};
+}
+
+Result<void> keep_chosen_attributes(Model& model, const std::string& chosen) {
+  if (chosen.empty() || chosen == "all") return {};
+  const auto names = chosen == "none" ? std::vector<std::string>() : split_list(chosen);
+  if (auto known = check_attribute_names(model, "--attributes", names); !known) return known;
+  keep_attributes(model, names);
+  return {};
+}
+
+Result<void> check_weights(const Model& model, const EncodeOptions& options) {
+  std::vector<std::string> names;
+  for (const AttributeWeight& weight : options.attribute_weights) names.push_back(weight.semantic);
+  return check_attribute_names(model, "--attribute-weight", names);
+}
+
+Result<Model> model_of(Conversion& job, LoadedFile file) {
+  LevelChoice choice;
+  if (job.options.level.given()) {
+    const auto chosen = job.options.level.choice(std::get<ProgressiveStrips>(file.content));
+    if (!chosen) return tl::unexpected(chosen.error());
+    choice = *chosen;
+  }
+  auto model = std::move(file).model(choice);
+  if (!model) return model;
+  if (const auto kept = keep_chosen_attributes(*model, job.options.attributes); !kept)
+    return tl::unexpected(kept.error());
+  if (const auto known = check_weights(*model, job.encode); !known)
+    return tl::unexpected(known.error());
+  return model;
+}
+
+// Encodes and, at the same time, looks for what is unusual about the model.
+Result<ProgressiveStrips> strips_of(Conversion& job, const Model& model) {
+  const bool reports = !job.io.quiet && !job.options.output.is_stdout();
+  MeshStatistics met;
+  Result<ProgressiveStrips> strips;
+  parallel_invoke(
+      job.encode.threads,
+      [&] {
+        if (reports) met = statistics_of(model);
+      },
+      [&] { strips = encode(model, job.encode, job.bar.callback(), &job.simplified); });
+  job.bar.clear();
+  if (reports) print_mesh_statistics(job.io.err, met, true);
+  if (strips) job.options.encode.stripping.note_time_limit(job.io);
+  return strips;
+}
+
+Result<SavedFiles> save_model(const Conversion& job, const Model& model) {
+  return save(model, job.options.output.path, job.target,
+              {.ascii = job.options.ascii,
+               .strips = job.options.gltf_strips,
+               .threads = job.options.limits.limits.threads,
+               .replace_companions = job.options.output.force});
+}
+
+Result<SavedFiles> save_records(const Conversion& job, ProgressiveStrips& strips) {
+  if (!strips.complete) strips = cut(strips, strips.packets.size());
+  return save(strips, job.options.output.path, job.target);
+}
+
+ExitCode finish(const Conversion& job, std::uint64_t input_bytes, const Result<SavedFiles>& saved) {
+  const auto& [options, io, target, encode, bar, simplified] = job;
+  if (!saved) return report_unsaved(io, saved.error(), options.output);
+  note(io, options.output.path, saved->notes);
+  list_written(io, saved->files,
+               fmt::format("{} ({}) ->", escaped(options.input), byte_size(input_bytes)));
+  if (options.verbose || !options.output.is_stdout())
+    report_simplification(io, simplified, options.verbose);
+  return kOk;
+}
+
+ExitCode convert(Conversion& job, LoadedFile file) {
+  const Options& options = job.options;
+  const std::uint64_t bytes = file.bytes;
+  if (keeps_records(options, file, job.target))
+    return finish(job, bytes, save_records(job, std::get<ProgressiveStrips>(file.content)));
+  const auto model = model_of(job, std::move(file));
+  if (!model) return report(job.io, model.error(), options.input);
+  if (!is_progressive(job.target)) return finish(job, bytes, save_model(job, *model));
+  const auto strips = strips_of(job, *model);
+  if (!strips) return report(job.io, strips.error(), options.input);
+  return finish(job, bytes, save(*strips, options.output.path, job.target));
+}
+
 ExitCode run(const Options& options, const Streams& io) {
-  const auto target = options.target.format_for(options.output);
-  if (!target) return complain(io, target.error());
+  const auto target = options.output.format();
+  if (!target) return report(io, target.error());
+  for (const auto& fits : {options.output.check({options.input}), check_target(options, *target)})
+    if (!fits) return report(io, fits.error());
   auto encode_options = options.encode.get();
-  if (!encode_options) return complain(io, encode_options.error());
+  if (!encode_options) return report(io, encode_options.error());
   encode_options->memory_bytes = options.limits.limits.memory_bytes;
   encode_options->threads = options.limits.limits.threads;
   // A mesh made from a text record has the record's own order.
   if (!is_progressive(*target)) encode_options->keep_order = true;
-  ProgressBar bar(io);
+  Conversion job{options, io, *target, *encode_options};
+  job.bar.show("read", 0);
   auto file = load(options.input, {.limits = options.limits.limits,
                                    .allow_prefix = options.prefix,
                                    .text_options = *encode_options});
-  if (!file) return complain(io, file.error(), options.input);
-  if (options.level.given() && !file->is_progressive())
-    return complain(io, {ErrorCode::unsupported, "has no levels"}, options.input);
+  job.bar.clear();
+  if (!file) return report(io, file.error(), options.input);
+  if (const auto fits = check_input(options, *file, *target); !fits)
+    return report(io, fits.error(), options.input);
   note(io, options.input, file->notes);
-
-  Result<SavedFiles> saved;
-  std::vector<SimplifyReport> simplified;
-  if (keeps_records(options, *file, *target)) {
-    auto& strips = std::get<ProgressiveStrips>(file->content);
-    if (!strips.complete) strips = cut(strips, strips.packets.size());
-    saved = save(strips, options.output, *target);
-  } else {
-    auto decoded = std::move(*file).model(options.level.choice);
-    if (!decoded) return complain(io, decoded.error(), options.input);
-    Model model = std::move(decoded).value();
-    if (!options.attributes.empty() && options.attributes != "all")
-      keep_attributes(model, options.attributes == "none" ? std::vector<std::string>()
-                                                          : split_list(options.attributes));
-    if (is_progressive(*target)) {
-      const bool tells = !io.quiet && options.output != "-";
-      MeshStatistics met;
-      Result<ProgressiveStrips> strips;
-      parallel_invoke(
-          encode_options->threads,
-          [&] {
-            if (tells) met = statistics_of(model);
-          },
-          [&] { strips = encode(model, *encode_options, bar.callback(), &simplified); });
-      bar.clear();
-      if (tells) print_mesh_statistics(io.err, met, true);
-      if (!strips) return complain(io, strips.error(), options.input);
-      options.encode.stripping.note_time_limit(io);
-      saved = save(*strips, options.output, *target);
-    } else {
-      saved = save(model, options.output, *target,
-                   {.ascii = options.ascii,
-                    .strips = options.gltf_strips,
-                    .threads = options.limits.limits.threads});
-    }
-  }
-  if (!saved) return complain(io, saved.error(), options.output);
-  report(io, options, *file, *saved);
-  if (options.verbose || options.output != "-")
-    report_simplification(io, simplified, options.verbose);
-  return kOk;
+  return convert(job, std::move(*file));
 }
 
 }  // namespace
@@ -143,10 +226,10 @@ Command add_convert(CLI::App& root) {
   CLI::App* app = root.add_subcommand("convert", "Turn a model into progressive strips, or back");
   app->add_option("input", options->input, "Model or progressive file; - is standard input")
       ->required();
-  app->add_option("output", options->output, "File to write; - is standard output")->required();
-  options->target.add_to(*app);
+  options->output.add_to(*app);
   app->add_option("--attributes", options->attributes,
-                  "Attributes to keep: all, none, or a list such as NORMAL,TEXCOORD_0");
+                  "Attributes to keep: all, none, or a list such as NORMAL,TEXCOORD_0")
+      ->type_name("LIST");
   app->add_flag("-v,--verbose", options->verbose, "Say how each mesh was simplified");
   app->add_flag("--ascii", options->ascii, "PLY output as text");
   app->add_flag("--gltf-strips", options->gltf_strips, "glTF output as strips, one primitive each");

@@ -8,9 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/help.h"
 #include "cli/option_groups.h"
-#include "cli/output.h"
+#include "cli/report.h"
+#include "cli/table.h"
 #include "codecs/triangulate/triangulate.h"
+#include "converters/bounding_box.h"
+#include "converters/files.h"
 #include "formats/pstrip/container/chunks.h"
 #include "formats/pstrip/container/parts.h"
 
@@ -29,17 +33,18 @@ struct Options {
 struct Report {
   std::string file, format, profile, strips_encoding;
   std::uint64_t bytes = 0;
-  Inspection figures;
+  Inspection metrics;
   std::array<std::uint64_t, kPartGroups> part_bytes{};
   bool has_parts = false;
   std::optional<MeshStatistics> statistics;  // of a plain model
   std::size_t meshes = 0, materials = 0, images = 0, nodes = 0;
   std::vector<std::string> attributes;
+  BoundingBox box;
   bool complete = true;
   std::optional<Error> error;
 
   double bits_per_vertex(std::uint64_t of) const {
-    return figures.vertices ? 8.0 * static_cast<double>(of) / static_cast<double>(figures.vertices)
+    return metrics.vertices ? 8.0 * static_cast<double>(of) / static_cast<double>(metrics.vertices)
                             : 0;
   }
 };
@@ -63,10 +68,11 @@ void add_scene(Report& report, const Scene& scene) {
 
 void add_strips(Report& report, const ProgressiveStrips& strips,
                 const std::vector<std::uint64_t>& ends) {
-  report.figures = inspect(strips, ends);
+  report.metrics = inspect(strips, ends);
   report.meshes = strips.meshes.size();
   report.complete = strips.complete;
   report.profile = name_of(strips.profile);
+  if (const auto model = decode(strips)) report.box = bounding_box(*model);
   add_scene(report, strips.scene);
   for (const ProgressiveMesh& mesh : strips.meshes) {
     report.strips_encoding = mesh.encoding == MapEncoding::naive ? "naive" : "offset";
@@ -79,13 +85,14 @@ void add_strips(Report& report, const ProgressiveStrips& strips,
 void add_model(Report& report, const Model& model) {
   report.meshes = model.meshes.size();
   report.statistics.emplace();
+  report.box = bounding_box(model);
   add_scene(report, model.scene);
   for (const Mesh& mesh : model.meshes) {
-    report.figures.vertices += mesh.vertex_count();
-    report.figures.wedges += mesh.wedge_count();
-    report.figures.faces += mesh.face_count();
+    report.metrics.vertices += mesh.vertex_count();
+    report.metrics.wedges += mesh.wedge_count();
+    report.metrics.faces += mesh.face_count();
     *report.statistics += mesh_statistics(mesh);
-    report.figures.triangles += triangulate(mesh).face.size();
+    report.metrics.triangles += triangulate(mesh).face.size();
     add_attribute(report, mesh.position);
     for (const Attribute& a : mesh.wedge_attributes) add_attribute(report, a);
     for (const Attribute& a : mesh.face_attributes) add_attribute(report, a);
@@ -132,25 +139,28 @@ Report make_report(const Options& options) {
   return report;
 }
 
-void print_totals(std::ostream& out, const Report& r) {
-  const Inspection& f = r.figures;
+void print_heading(std::ostream& out, const Report& r) {
   out << escaped(r.file) << ": " << r.format;
   if (!r.profile.empty())
     out << ", " << r.profile << " profile, " << r.strips_encoding << " strips";
   if (!r.complete) out << ", ends early";
   out << "\n";
+}
+
+void print_totals(std::ostream& out, const Report& r) {
+  const Inspection& m = r.metrics;
   Table table({"", ""});
   const auto add = [&](const char* label, std::uint64_t n) { table.add({label, grouped(n)}); };
   add("meshes", r.meshes);
-  add("vertices", f.vertices);
-  add("wedges", f.wedges);
-  add("faces", f.faces);
-  add("triangles", f.triangles);
-  if (!f.levels.empty()) {
-    add("strips", f.strips);
-    add("index-map entries", f.map_entries);
-    add("vsplits", f.vsplits);
-    table.add({"map offsets a vsplit (u)", fmt::format("{:.2f}", f.places_per_vsplit)});
+  add("vertices", m.vertices);
+  add("wedges", m.wedges);
+  add("faces", m.faces);
+  add("triangles", m.triangles);
+  if (!m.levels.empty()) {
+    add("strips", m.strips);
+    add("index-map entries", m.map_entries);
+    add("vsplits", m.vsplits);
+    table.add({"map offsets a vsplit (u)", fmt::format("{:.2f}", m.places_per_vsplit)});
   }
   if (r.materials) add("materials", r.materials);
   if (r.images) add("images", r.images);
@@ -158,42 +168,63 @@ void print_totals(std::ostream& out, const Report& r) {
   add("bytes", r.bytes);
   table.add({"bits per vertex", fmt::format("{:.1f}", r.bits_per_vertex(r.bytes))});
   table.print(out);
-  if (r.statistics) print_mesh_statistics(out, *r.statistics, false);
-  for (const std::string& a : r.attributes) out << "attribute " << escaped(a) << "\n";
+}
+
+void print_box(std::ostream& out, const BoundingBox& box) {
+  if (box.is_empty()) return;
+  constexpr std::array kAxes = {"x", "y", "z"};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    out << fmt::format("{} from {} to {}\n", kAxes[axis], four_digits(box.min[axis]),
+                       four_digits(box.max[axis]));
+  out << "diagonal " << four_digits(box.diagonal()) << "\n";
+}
+
+void print_parts(std::ostream& out, const Report& r) {
+  Table table({"part", "bytes", "bits per vertex", "% of file"});
+  const auto all = static_cast<double>(std::max<std::uint64_t>(r.bytes, 1));
+  for (std::size_t g = 0; g < kPartGroups; ++g)
+    table.add({std::string(name_of(static_cast<PartGroup>(g)).label), grouped(r.part_bytes[g]),
+               fmt::format("{:.2f}", r.bits_per_vertex(r.part_bytes[g])),
+               fmt::format("{:.1f}", 100.0 * static_cast<double>(r.part_bytes[g]) / all)});
+  out << "\n";
+  table.print(out);
+}
+
+void print_levels(std::ostream& out, const Report& r) {
+  Table levels(
+      {"packet", "bytes", "vertices", "triangles", "strips", "sent", "error", "one-sided"});
+  for (const InspectedLevel& l : r.metrics.levels)
+    levels.add({std::to_string(l.packet), l.bytes_so_far ? grouped(l.bytes_so_far) : "-",
+                grouped(l.vertices), grouped(l.triangles), grouped(l.strips),
+                grouped(l.vertices_sent), four_digits(l.error), four_digits(l.one_sided_error)});
+  out << "\n";
+  levels.print(out);
+  out << wrapped(fmt::format("bytes: of the file up to there; sent: vertices, to draw the strips; "
+                             "errors: in model units, of which the diagonal has {}",
+                             four_digits(r.box.diagonal())),
+                 0, 0)
+      << "\n";
+}
+
+void print_strip_lengths(std::ostream& out, const std::vector<std::uint64_t>& lengths) {
+  const std::uint64_t most = *std::ranges::max_element(lengths);
+  Table histogram({"entries a strip", "strips", ""});
+  for (std::size_t bin = 0; bin < lengths.size(); ++bin)
+    histogram.add({strip_length_bin(bin), grouped(lengths[bin]),
+                   std::string(static_cast<std::size_t>(lengths[bin] * 40 / most), '#')});
+  out << "\n";
+  histogram.print(out);
 }
 
 void print_text(std::ostream& out, const Report& r) {
+  print_heading(out, r);
   print_totals(out, r);
-  if (r.has_parts) {
-    out << "\n";
-    Table table({"part", "bytes", "bits per vertex", "% of file"});
-    for (std::size_t g = 0; g < kPartGroups; ++g)
-      table.add(
-          {std::string(name_of(static_cast<PartGroup>(g)).label), grouped(r.part_bytes[g]),
-           fmt::format("{:.2f}", r.bits_per_vertex(r.part_bytes[g])),
-           fmt::format("{:.1f}", 100.0 * static_cast<double>(r.part_bytes[g]) /
-                                     static_cast<double>(std::max<std::uint64_t>(r.bytes, 1)))});
-    table.print(out);
-  }
-  if (r.figures.levels.empty()) return;
-  out << "\n";
-  Table levels({"packet", "bytes so far", "vertices", "triangles", "strips", "vertices sent",
-                "error", "one-sided error"});
-  for (const InspectedLevel& l : r.figures.levels)
-    levels.add({std::to_string(l.packet), l.bytes_so_far ? grouped(l.bytes_so_far) : "-",
-                grouped(l.vertices), grouped(l.triangles), grouped(l.strips),
-                grouped(l.vertices_sent), figure(l.error), figure(l.one_sided_error)});
-  levels.print(out);
-  if (r.figures.strip_lengths.empty()) return;
-  out << "\n";
-  const std::uint64_t most = *std::ranges::max_element(r.figures.strip_lengths);
-  Table histogram({"entries a strip", "strips", ""});
-  for (std::size_t bin = 0; bin < r.figures.strip_lengths.size(); ++bin) {
-    const std::uint64_t n = r.figures.strip_lengths[bin];
-    histogram.add({strip_length_bin(bin), grouped(n),
-                   std::string(static_cast<std::size_t>(n * 40 / most), '#')});
-  }
-  histogram.print(out);
+  print_box(out, r.box);
+  if (r.statistics) print_mesh_statistics(out, *r.statistics, false);
+  for (const std::string& a : r.attributes) out << "attribute " << escaped(a) << "\n";
+  if (r.has_parts) print_parts(out, r);
+  if (!r.metrics.levels.empty()) print_levels(out, r);
+  if (!r.metrics.strip_lengths.empty()) print_strip_lengths(out, r.metrics.strip_lengths);
 }
 
 Json statistics_json(const MeshStatistics& statistics) {
@@ -207,6 +238,50 @@ Json statistics_json(const MeshStatistics& statistics) {
   return json;
 }
 
+Json box_json(const BoundingBox& box) {
+  if (box.is_empty()) return nullptr;
+  return {{"min", box.min}, {"max", box.max}, {"diagonal", box.diagonal()}};
+}
+
+Json parts_json(const Report& r) {
+  Json json = Json::object();
+  for (std::size_t g = 0; r.has_parts && g < kPartGroups; ++g)
+    json[std::string(name_of(static_cast<PartGroup>(g)).key)] = {
+        {"bytes", r.part_bytes[g]}, {"bits_per_vertex", r.bits_per_vertex(r.part_bytes[g])}};
+  return json;
+}
+
+Json levels_json(const std::vector<InspectedLevel>& levels) {
+  Json json = Json::array();
+  for (const InspectedLevel& l : levels)
+    json.push_back({{"packet", l.packet},
+                    {"mesh", l.mesh},
+                    {"bytes_so_far", l.bytes_so_far},
+                    {"vertices", l.vertices},
+                    {"triangles", l.triangles},
+                    {"strips", l.strips},
+                    {"vertices_sent", l.vertices_sent},
+                    {"error", l.error},
+                    {"one_sided_error", l.one_sided_error}});
+  return json;
+}
+
+void add_counts(Json& json, const Report& r) {
+  const Inspection& m = r.metrics;
+  json["meshes"] = r.meshes;
+  json["vertices"] = m.vertices;
+  json["wedges"] = m.wedges;
+  json["faces"] = m.faces;
+  json["triangles"] = m.triangles;
+  json["strips"] = m.strips;
+  json["map_entries"] = m.map_entries;
+  json["vsplits"] = m.vsplits;
+  json["places_per_vsplit"] = m.places_per_vsplit;
+  json["materials"] = r.materials;
+  json["images"] = r.images;
+  json["nodes"] = r.nodes;
+}
+
 void print_json(std::ostream& out, const Report& r) {
   Json json;
   json["schema"] = "pstrips-inspect-1";
@@ -215,64 +290,49 @@ void print_json(std::ostream& out, const Report& r) {
   json["profile"] = r.profile;
   json["strips_encoding"] = r.strips_encoding;
   json["complete"] = r.complete && !r.error;
-  json["error"] = nullptr;
-  if (r.error) json["error"] = json_of<Json>(*r.error);
-  const Inspection& f = r.figures;
-  json["meshes"] = r.meshes;
-  json["vertices"] = f.vertices;
-  json["wedges"] = f.wedges;
-  json["faces"] = f.faces;
-  json["triangles"] = f.triangles;
-  json["strips"] = f.strips;
-  json["map_entries"] = f.map_entries;
-  json["vsplits"] = f.vsplits;
-  json["places_per_vsplit"] = f.places_per_vsplit;
-  json["materials"] = r.materials;
-  json["images"] = r.images;
-  json["nodes"] = r.nodes;
+  json["error"] = r.error ? json_of<Json>(*r.error) : Json();
+  add_counts(json, r);
+  json["bounding_box"] = box_json(r.box);
   json["attributes"] = Json::array();
   for (const std::string& a : r.attributes) json["attributes"].push_back(escaped(a));
   json["survey"] = r.statistics ? statistics_json(*r.statistics) : Json();
   json["bytes"] = r.bytes;
   json["bits_per_vertex"] = r.bits_per_vertex(r.bytes);
-  json["parts"] = Json::object();
-  if (r.has_parts)
-    for (std::size_t g = 0; g < kPartGroups; ++g)
-      json["parts"][std::string(name_of(static_cast<PartGroup>(g)).key)] = {
-          {"bytes", r.part_bytes[g]}, {"bits_per_vertex", r.bits_per_vertex(r.part_bytes[g])}};
-  json["packets"] = Json::array();
-  for (const InspectedLevel& l : f.levels)
-    json["packets"].push_back({{"packet", l.packet},
-                               {"mesh", l.mesh},
-                               {"bytes_so_far", l.bytes_so_far},
-                               {"vertices", l.vertices},
-                               {"triangles", l.triangles},
-                               {"strips", l.strips},
-                               {"vertices_sent", l.vertices_sent},
-                               {"error", l.error},
-                               {"one_sided_error", l.one_sided_error}});
+  json["parts"] = parts_json(r);
+  json["packets"] = levels_json(r.metrics.levels);
   json["strip_lengths"] = Json::array();
-  for (std::size_t bin = 0; bin < f.strip_lengths.size(); ++bin)
+  for (std::size_t bin = 0; bin < r.metrics.strip_lengths.size(); ++bin)
     json["strip_lengths"].push_back(
-        {{"entries", strip_length_bin(bin)}, {"strips", f.strip_lengths[bin]}});
+        {{"entries", strip_length_bin(bin)}, {"strips", r.metrics.strip_lengths[bin]}});
   out << json.dump(2) << "\n";
 }
 
+// A row a level; of a model, which has none, one row.
 void print_csv(std::ostream& out, const Report& r) {
+  const Inspection& m = r.metrics;
+  if (r.statistics) {
+    out << "file,format,bytes,meshes,vertices,wedges,faces,triangles,materials,images,nodes,"
+           "min_x,min_y,min_z,max_x,max_y,max_z,diagonal\n"
+        << fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_text(r.file), r.format,
+                       r.bytes, r.meshes, m.vertices, m.wedges, m.faces, m.triangles, r.materials,
+                       r.images, r.nodes, fmt::join(r.box.min, ","), fmt::join(r.box.max, ","),
+                       r.box.diagonal());
+    return;
+  }
   out << "packet,mesh,bytes_so_far,vertices,triangles,strips,vertices_sent,error,one_sided_error\n";
-  for (const InspectedLevel& l : r.figures.levels)
+  for (const InspectedLevel& l : m.levels)
     out << fmt::format("{},{},{},{},{},{},{},{},{}\n", l.packet, l.mesh, l.bytes_so_far, l.vertices,
                        l.triangles, l.strips, l.vertices_sent, l.error, l.one_sided_error);
 }
 
 ExitCode run(const Options& options, const Streams& io) {
-  const Report report = make_report(options);
-  if (options.format.json()) print_json(io.out, report);
-  if (report.error) return complain(io, *report.error, options.input);
+  const Report inspected = make_report(options);
+  if (options.format.json()) print_json(io.out, inspected);
+  if (inspected.error) return report(io, *inspected.error, options.input);
   if (options.format.csv())
-    print_csv(io.out, report);
+    print_csv(io.out, inspected);
   else if (!options.format.json())
-    print_text(io.out, report);
+    print_text(io.out, inspected);
   return kOk;
 }
 

@@ -6,9 +6,15 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <limits>
 #include <ostream>
+#include <type_traits>
 
+#include "cli/help.h"
+#include "cli/number_options.h"
 #include "codecs/stripify/stripify.h"
+#include "converters/bounding_box.h"
+#include "converters/scene_level.h"
 #include "core/profile.h"
 
 namespace pstrips::cli {
@@ -24,14 +30,15 @@ std::vector<std::string> split_list(std::string_view list) {
 }
 
 void FormatOption::add_to(CLI::App& app, const std::vector<std::string>& names) {
-  app.add_option("--format", format, "How to print the report")
-      ->check(CLI::IsMember(names))
-      ->capture_default_str();
+  takes_one_of(app.add_option("--format", format, "How to print the report")->capture_default_str(),
+               names);
 }
 
 void LimitOptions::add_to(CLI::App& app) {
-  const auto add = [&](const char* name, std::uint64_t& value, const char* what) {
-    app.add_option(name, value, what)->capture_default_str()->group("Limits");
+  const auto add = [&](const char* name, auto& value, const char* what) {
+    auto* option = app.add_option(name, value, what)->group(kLimitsGroup);
+    option->default_str(count_word(value));
+    takes_count(option, 0, std::numeric_limits<std::decay_t<decltype(value)>>::max());
   };
   add("--max-vertices", limits.vertices, "Refuse files with more vertices");
   add("--max-wedges", limits.wedges, "Refuse files with more wedges");
@@ -40,25 +47,64 @@ void LimitOptions::add_to(CLI::App& app) {
   add("--max-string", limits.string_bytes, "Refuse longer names and comments (bytes)");
   add("--max-memory", limits.memory_bytes,
       "Refuse models that need more memory to read or to encode (bytes)");
-  app.add_option("--max-depth", limits.xml_depth, "Refuse deeper nesting in XML and JSON")
-      ->capture_default_str()
-      ->group("Limits");
-  app.add_option("--threads", limits.threads,
-                 "Threads to work with; 0 is one a core. The output does not depend on it")
-      ->capture_default_str();
+  add("--max-depth", limits.xml_depth, "Refuse deeper nesting in XML and JSON");
+  add("--threads", limits.threads,
+      "Threads to work with; 0 is one a core. The output does not depend on it");
 }
 
 void LevelOptions::add_to(CLI::App& app) {
-  auto* packets = app.add_option("--level,--packet", choice.packets,
-                                 "Refine by this many packets; 0 is the base");
-  auto* triangles = app.add_option("--triangles", choice.triangles,
-                                   "Refine as far as there are at most this many triangles");
-  auto* error = app.add_option("--error", choice.error,
-                               "Refine until the error bound is at most this (model units)");
-  packets->check(CLI::NonNegativeNumber)->excludes(triangles)->excludes(error);
-  triangles->check(CLI::NonNegativeNumber)->excludes(error);
-  error->check(CLI::NonNegativeNumber);
-  for (auto* option : {packets, triangles, error}) option->group("Level of a progressive file");
+  auto* by_packets =
+      app.add_option("--level,--packet", packets, "Refine by this many packets; 0 is the base");
+  auto* by_triangles =
+      app.add_option("--triangles", triangles,
+                     "Refine as far as there are at most so many triangles, or so many "
+                     "percent of the full model's");
+  auto* by_error =
+      app.add_option("--error", error,
+                     "Refine until the error bound is at most this, in model units or in "
+                     "percent of the model's diagonal");
+  takes_count(by_packets);
+  takes_count_or_share(by_triangles);
+  takes_number_or_share(by_error);
+  by_packets->excludes(by_triangles)->excludes(by_error);
+  by_triangles->excludes(by_error);
+  for (auto* option : {by_packets, by_triangles, by_error}) option->group(kLevelGroup);
+}
+
+namespace {
+
+std::uint64_t triangles_of(const ProgressiveStrips& strips) {
+  SceneLevel level(strips);
+  for (const Packet& packet : strips.packets) level.add(packet);
+  return level.triangles();
+}
+
+}  // namespace
+
+Result<LevelChoice> LevelOptions::choice(const ProgressiveStrips& strips) const {
+  LevelChoice out;
+  if (!packets.empty()) {
+    const std::uint64_t level = *parse_count(packets);
+    if (level > strips.packets.size())
+      return fail(ErrorCode::bad_argument, fmt::format("--level {}: the file has levels 0 to {}",
+                                                       level, strips.packets.size()));
+    out.packets = static_cast<std::int64_t>(level);
+  }
+  if (!triangles.empty()) {
+    const Amount amount = *parse_amount(triangles);
+    const double most =
+        amount.is_share ? amount.number * static_cast<double>(triangles_of(strips)) : amount.number;
+    out.triangles = static_cast<std::int64_t>(std::min(most, 1e18));
+  }
+  if (!error.empty()) {
+    const Amount amount = *parse_amount(error);
+    out.error = amount.number;
+    if (!amount.is_share) return out;
+    const auto model = decode(strips);
+    if (!model) return tl::unexpected(model.error());
+    out.error *= bounding_box(*model).diagonal();
+  }
+  return out;
 }
 
 std::function<bool()> stop_after(double seconds, std::shared_ptr<std::atomic<bool>> was_cut) {
@@ -71,34 +117,35 @@ std::function<bool()> stop_after(double seconds, std::shared_ptr<std::atomic<boo
 }
 
 void StripOptionsGroup::add_to(CLI::App& app) {
-  constexpr const char* kGroup = "Stripification";
-  app.add_option("--goal", goal, "Fewest indices sent, or fewest strips")
-      ->check(CLI::IsMember({"indices", "strips"}))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--strip-effort", effort, "fast, high, max, or moves tried per triangle")
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--strip-price", price,
-                 "Indices that a strip counts for; higher gives fewer strips")
-      ->check(CLI::Range(0u, kMaxStripPrice))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--strip-weight", weight, "What multi-path-weighted prefers")
-      ->check(CLI::IsMember({"topological", "axis"}))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--tunnel-length", tunnel_length, "Most dual edges of a tunnel; 0 is no tunnels")
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--tunnel-effort", tunnel_effort, "Steps of the search for tunnels, per triangle")
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--time-limit", time_limit,
-                 "Cut the search after so many seconds, if only by a part of it; 0 is never")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str()
-      ->group(kGroup);
+  const auto add = [&](const char* group, CLI::Option* option) {
+    members.push_back(option->capture_default_str()->group(group));
+    return option;
+  };
+  takes_one_of(
+      add(kStripsGroup, app.add_option("--goal", goal, "Fewest indices sent, or fewest strips")),
+      {"indices", "strips"});
+  add(kStripsGroup,
+      app.add_option("--strip-effort", effort, "fast, high, max, or moves tried per triangle"))
+      ->type_name("WORD|N");
+  takes_number(add(kStripsGroup,
+                   app.add_option("--time-limit", time_limit,
+                                  "Cut the search after so many seconds, if only by a part of it; "
+                                  "0 is never")));
+  takes_count(add(kRareStripsGroup,
+                  app.add_option("--strip-price", price,
+                                 "Indices that a strip counts for; higher gives fewer strips")),
+              0, kMaxStripPrice);
+  takes_one_of(add(kRareStripsGroup,
+                   app.add_option("--strip-weight", weight, "What multi-path-weighted prefers")),
+               {"topological", "axis"});
+  constexpr std::uint64_t kMax = std::numeric_limits<std::uint32_t>::max();
+  takes_count(add(kRareStripsGroup, app.add_option("--tunnel-length", tunnel_length,
+                                                   "Most dual edges of a tunnel; 0 is no tunnels")),
+              0, kMax);
+  takes_count(
+      add(kRareStripsGroup, app.add_option("--tunnel-effort", tunnel_effort,
+                                           "Steps of the search for tunnels, per triangle")),
+      0, kMax);
 }
 
 Result<StripOptions> StripOptionsGroup::get() const {
@@ -127,55 +174,74 @@ void StripOptionsGroup::note_time_limit(const Streams& io) const {
 }
 
 void EncodeOptionsGroup::add_to(CLI::App& app) {
-  stripping.add_to(app);
   std::vector<std::string> names;
   for (const NamedStripifier& s : stripifiers()) names.emplace_back(s.name);
   std::vector<std::string> profiles;
   for (const ProfileName& p : kProfiles) profiles.emplace_back(p.name);
-  constexpr const char* kGroup = "Progressive output";
-  app.add_option("--profile", profile, "Profile of the file")
-      ->check(CLI::IsMember(profiles))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--strips", strips, "Index-map encoding: wedges only, or offset differences too")
-      ->check(CLI::IsMember({"naive", "offset"}))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--stripifier", options.stripifier, "How triangles become strips")
-      ->check(CLI::IsMember(names))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--level-cost", options.level_cost,
-                 "Indices that a step counts for which tears a strip at coarser levels")
-      ->check(CLI::Range(0u, kMaxLevelCost))
-      ->capture_default_str()
-      ->group(kGroup);
-  auto* share = app.add_option("--base", base, "Triangles of the base: N, or N% of the model")
-                    ->capture_default_str()
-                    ->group(kGroup);
-  app.add_option("--base-error", base_error,
-                 "Instead: how far base and model may be apart (two-sided, model units)")
-      ->check(CLI::NonNegativeNumber)
-      ->excludes(share)
-      ->group(kGroup);
-  app.add_option("--placement", placement,
-                 "Vertices of the levels: a subset of the model's, or moved where they fit best")
-      ->check(CLI::IsMember({"subset", "optimal"}))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--metric", metric,
-                 "What levels are nearest by: the faces that are left, or with qem all faces "
-                 "ever replaced")
-      ->check(CLI::IsMember({"qem", "memoryless"}))
-      ->capture_default_str()
-      ->group(kGroup);
-  app.add_option("--attribute-weight", attribute_weights,
-                 "NAME=WEIGHT, such as TEXCOORD_0=0.3: share of the model's diagonal that a full "
-                 "swing of an attribute counts for; may be repeated")
+  const auto add = [&](const char* group, CLI::Option* option) {
+    members.push_back(option->group(group));
+    return option;
+  };
+  auto* share = add(kProgressiveGroup, app.add_option("--base", base,
+                                                      "Triangles of the base, or percent of the "
+                                                      "model's"));
+  share->type_name("N|N%")->capture_default_str();
+  takes_number(add(kProgressiveGroup,
+                   app.add_option("--base-error", base_error,
+                                  "Instead: how far base and model may be apart, both ways, in "
+                                  "model units"))
+                   ->excludes(share));
+  takes_one_of(add(kProgressiveGroup,
+                   app.add_option("--placement", placement,
+                                  "Vertices of the levels: a subset of the model's, or moved where "
+                                  "they fit best"))
+                   ->capture_default_str(),
+               {"subset", "optimal"});
+  add(kProgressiveGroup, app.add_flag("--keep-order", options.keep_order,
+                                      "Keep the order of vertices, wedges and faces"));
+  takes_one_of(add(kProgressiveGroup, app.add_option("--stripifier", options.stripifier,
+                                                     "How triangles become strips"))
+                   ->capture_default_str(),
+               names);
+  stripping.add_to(app);
+  takes_one_of(add(kRareProgressiveGroup,
+                   app.add_option("--strips", strips,
+                                  "Entries of the index map: wedges only, or offsets too"))
+                   ->capture_default_str(),
+               {"naive", "offset"});
+  takes_one_of(add(kRareProgressiveGroup,
+                   app.add_option("--metric", metric,
+                                  "What levels are nearest by: the faces that are left, or with "
+                                  "qem all faces ever replaced"))
+                   ->capture_default_str(),
+               {"qem", "memoryless"});
+  add(kRareProgressiveGroup,
+      app.add_option("--attribute-weight", attribute_weights,
+                     "NAME=WEIGHT, such as TEXCOORD_0=0.3: share of the model's diagonal that a "
+                     "full swing of an attribute counts for; may be repeated"))
       ->allow_extra_args(false)
-      ->group(kGroup);
-  app.add_flag("--keep-order", options.keep_order, "Keep the order of vertices, wedges and faces")
-      ->group(kGroup);
+      ->type_name("NAME=X");
+  takes_count(add(kRareProgressiveGroup,
+                  app.add_option("--level-cost", options.level_cost,
+                                 "Indices that a step counts for which tears a strip at coarser "
+                                 "levels"))
+                  ->capture_default_str(),
+              0, kMaxLevelCost);
+  takes_one_of(
+      add(kRareProgressiveGroup, app.add_option("--profile", profile, "Profile of the file"))
+          ->capture_default_str(),
+      profiles);
+}
+
+std::string EncodeOptionsGroup::first_given() const {
+  const std::string first = cli::first_given(members);
+  return first.empty() ? cli::first_given(stripping.members) : first;
+}
+
+std::string first_given(const std::vector<const CLI::Option*>& options) {
+  const auto given =
+      std::ranges::find_if(options, [](const CLI::Option* option) { return option->count() > 0; });
+  return given == options.end() ? "" : "--" + (*given)->get_lnames().front();
 }
 
 namespace {
@@ -212,31 +278,16 @@ Result<EncodeOptions> EncodeOptionsGroup::get() const {
     out.base_error = base_error;
     return out;
   }
-  const bool share = base.ends_with('%');
-  const char* end = base.data() + base.size() - (share ? 1 : 0);
-  double number = 0;
-  const auto [rest, code] = std::from_chars(base.data(), end, number);
-  if (code != std::errc{} || rest != end || !(number >= 0) || (share && number > 100) ||
-      (!share && number != static_cast<double>(static_cast<std::uint64_t>(std::min(number, 1e18)))))
+  const auto count = parse_count(base);
+  const auto amount = parse_amount(base);
+  if (count)
+    out.base_triangles = *count;
+  else if (amount && amount->is_share && amount->number <= 1)
+    out.base_share = amount->number;
+  else
     return fail(ErrorCode::bad_argument,
                 "--base takes a number of triangles or a percentage: " + base);
-  if (share)
-    out.base_share = number / 100;
-  else
-    out.base_triangles = static_cast<std::uint64_t>(number);
   return out;
-}
-
-void TargetOption::add_to(CLI::App& app) {
-  app.add_option("--to", to, "Format of the output, where its name does not say it")
-      ->check(CLI::IsMember({"ply", "obj", "gltf", "glb", "pstrip", "pstripx", "pm"}));
-}
-
-Result<FileFormat> TargetOption::format_for(const std::string& path) const {
-  if (!to.empty()) return *format_named(to);
-  if (const auto format = format_of_path(path)) return *format;
-  return fail(ErrorCode::bad_argument, "cannot tell the format from the name; use --to", kNoOffset,
-              path);
 }
 
 }  // namespace pstrips::cli

@@ -11,12 +11,13 @@
 #include "cli/command.h"
 #include "codecs/stripify/stripify.h"
 #include "converters/decode.h"
-#include "converters/files.h"
+#include "converters/encode.h"
 #include "core/limits.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace pstrips::cli {
 
@@ -41,9 +42,13 @@ struct LimitOptions {
 
 /// --level (--packet), --triangles, --error: how far to refine a progressive file.
 struct LevelOptions {
-  LevelChoice choice;
+  std::string packets, triangles, error;  ///< as written, checked; empty: not given
   void add_to(CLI::App& app);
-  bool given() const { return choice.packets >= 0 || choice.triangles >= 0 || choice.error >= 0; }
+  bool given() const { return !packets.empty() || !triangles.empty() || !error.empty(); }
+  /// What they come to for a file: shares are of its triangles and of its diagonal.
+  ///
+  /// errors  bad_argument for a level that the file does not have; as decode()
+  Result<LevelChoice> choice(const ProgressiveStrips& strips) const;
 };
 
 /// True from `seconds` after the call on, and then notes it in `*was_cut`; empty for 0 seconds.
@@ -61,6 +66,7 @@ struct StripOptionsGroup {
   double time_limit = 0;  ///< seconds; 0: none
   /// By the time limit.
   std::shared_ptr<std::atomic<bool>> was_cut = std::make_shared<std::atomic<bool>>(false);
+  std::vector<const CLI::Option*> members;
   void add_to(CLI::App& app);
   /// The time limit runs from here on. errors  bad_argument
   Result<StripOptions> get() const;
@@ -80,17 +86,15 @@ struct EncodeOptionsGroup {
   double base_error = -1;
   std::string profile = "plain";
   StripOptionsGroup stripping;
+  std::vector<const CLI::Option*> members;  ///< without those of `stripping`
   void add_to(CLI::App& app);
   /// Combines what was parsed. errors: bad_argument
   Result<EncodeOptions> get() const;
+  /// The first of all these options that the command line has, as "--base"; empty: none.
+  std::string first_given() const;
 };
 
-/// --to FORMAT, for "-" and for unusual extensions.
-struct TargetOption {
-  std::string to;
-  void add_to(CLI::App& app);
-  /// errors  bad_argument when neither the option nor the path names a format
-  Result<FileFormat> format_for(const std::string& path) const;
-};
+/// "--base" of the first option that the command line has; empty: none.
+std::string first_given(const std::vector<const CLI::Option*>& options);
 
 }  // namespace pstrips::cli

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/option_groups.h"
-#include "cli/output.h"
-#include "cli/strip_figures.h"
+#include "cli/progress_bar.h"
+#include "cli/report.h"
+#include "cli/table.h"
 #include "codecs/triangulate/triangulate.h"
 #include "converters/files.h"
-#include "peers/peers.h"
 
 namespace pstrips::cli {
 namespace {
@@ -27,7 +27,25 @@ struct Run {
 
 struct Row {
   std::string algorithm, variant;
-  StripFigures figures;
+  StripMetrics metrics;
+  bool was_cut = false;  // by the time limit
+
+  std::string remark() const {
+    return !metrics.fault.empty() ? metrics.fault : was_cut ? "cut by the time limit" : "";
+  }
+  double bytes_per_triangle() const {
+    const std::uint64_t triangles = metrics.stats.triangles;
+    return triangles == 0
+               ? 0
+               : static_cast<double>(metrics.peak_bytes) / static_cast<double>(triangles);
+  }
+};
+
+struct Comparison {
+  std::string file;
+  std::uint64_t triangles = 0, wedges = 0;
+  std::vector<Row> rows;
+  bool has_memory = false;
 };
 
 std::string effort_name(std::uint32_t effort) {
@@ -37,37 +55,39 @@ std::string effort_name(std::uint32_t effort) {
                                  : fmt::format("effort {}", effort);
 }
 
+// The quick run, and both goals with more effort.
+void add_runs_of_best(const NamedStripifier& best, const StripOptions& given,
+                      std::vector<Run>& runs) {
+  StripOptions options = given;
+  options.goal = StripGoal::indices;
+  options.effort = kEffortFast;
+  runs.push_back({&best, "fast", options});
+  options.effort = given.effort == kEffortFast ? kEffortHigh : given.effort;
+  runs.push_back({&best, effort_name(options.effort), options});
+  options.goal = StripGoal::strips;
+  runs.push_back({&best, effort_name(options.effort) + ", strips", options});
+}
+
 void add_runs(const NamedStripifier& algorithm, const StripOptions& given, std::vector<Run>& runs) {
-  const auto add = [&](std::string variant, auto&& change) {
-    runs.push_back({&algorithm, std::move(variant), given});
-    change(runs.back().options);
+  if (algorithm.name == "best") return add_runs_of_best(algorithm, given, runs);
+  const auto add = [&](const char* variant, auto StripOptions::*option, auto value) {
+    runs.push_back({&algorithm, variant, given});
+    runs.back().options.*option = value;
   };
-  if (algorithm.name == "best") {
-    const std::uint32_t effort = given.effort == kEffortFast ? kEffortHigh : given.effort;
-    add("fast", [](StripOptions& o) {
-      o.goal = StripGoal::indices;
-      o.effort = kEffortFast;
-    });
-    for (const StripGoal goal : {StripGoal::indices, StripGoal::strips})
-      add(effort_name(effort) + (goal == StripGoal::strips ? ", strips" : ""),
-          [&](StripOptions& o) {
-            o.goal = goal;
-            o.effort = effort;
-          });
-  } else if (algorithm.honors_goal) {
-    add("indices", [](StripOptions& o) { o.goal = StripGoal::indices; });
-    add("strips", [](StripOptions& o) { o.goal = StripGoal::strips; });
+  if (algorithm.honors_goal) {
+    add("indices", &StripOptions::goal, StripGoal::indices);
+    add("strips", &StripOptions::goal, StripGoal::strips);
   } else if (algorithm.honors_weight) {
-    add("topological", [](StripOptions& o) { o.weight = StripWeight::topological; });
-    add("axis", [](StripOptions& o) { o.weight = StripWeight::axis; });
+    add("topological", &StripOptions::weight, StripWeight::topological);
+    add("axis", &StripOptions::weight, StripWeight::axis);
   } else {
-    add("", [](StripOptions&) {});
+    runs.push_back({&algorithm, "", given});
   }
 }
 
 std::vector<Run> runs_of(const ComparisonOptions& options) {
   std::vector<Run> runs;
-  for (const auto& list : {stripifiers(), peer_stripifiers()})
+  for (const auto& list : {stripifiers(), options.peers})
     for (const NamedStripifier& algorithm : list)
       if (options.algorithms.empty() ||
           std::ranges::find(options.algorithms, algorithm.name) != options.algorithms.end())
@@ -75,125 +95,196 @@ std::vector<Run> runs_of(const ComparisonOptions& options) {
   return runs;
 }
 
-StripFigures measure_once(Model& model, const Run& run, double time_limit) {
+Row measure_once(Model& model, const Run& run, const ComparisonOptions& options) {
   const auto was_cut = std::make_shared<std::atomic<bool>>(false);
-  StripOptions options = run.options;
-  options.stop = stop_after(time_limit, was_cut);
-  StripFigures out = measure_strips(model, *run.algorithm, options, false);
-  if (*was_cut && out.remark.empty()) out.remark = "cut by the time limit";
+  StripOptions strip_options = run.options;
+  strip_options.stop = stop_after(options.time_limit, was_cut);
+  Row out{.algorithm = std::string(run.algorithm->name), .variant = run.variant, .metrics = {}};
+  out.metrics = measure_strips(model, *run.algorithm, strip_options, false, options.heap);
+  out.was_cut = *was_cut;
   return out;
 }
 
 // Short runs are repeated: the first one pays for cold caches.
-StripFigures measure(Model& model, const Run& run, double time_limit) {
+Row measure(Model& model, const Run& run, const ComparisonOptions& options) {
   constexpr double kEnoughMilliseconds = 200;
   constexpr int kMaxRuns = 5;
-  StripFigures best = measure_once(model, run, time_limit);
-  double spent = best.milliseconds;
+  Row best = measure_once(model, run, options);
+  double spent = best.metrics.milliseconds;
   for (int i = 1; i < kMaxRuns && spent < kEnoughMilliseconds; ++i) {
-    const StripFigures again = measure_once(model, run, time_limit);
+    const StripMetrics again = measure_once(model, run, options).metrics;
     spent += again.milliseconds;
-    best.milliseconds = std::min(best.milliseconds, again.milliseconds);
-    best.cpu_milliseconds = std::min(best.cpu_milliseconds, again.cpu_milliseconds);
+    best.metrics.milliseconds = std::min(best.metrics.milliseconds, again.milliseconds);
+    best.metrics.cpu_milliseconds = std::min(best.metrics.cpu_milliseconds, again.cpu_milliseconds);
   }
   return best;
 }
-
-const std::vector<std::string> kColumns = {"algorithm", "variant", "strips", "singletons", "swaps",
-                                           "indices",   "sent",    "sent/T", "ACMR 16",    "peak",
-                                           "B/T",       "ms",      "remark"};
-
-std::vector<std::string> cells(const Row& row) {
-  const StripFigures& f = row.figures;
-  const StripStats& s = f.stats;
-  const double bytes_per_triangle =
-      s.triangles == 0 ? 0 : static_cast<double>(f.peak_bytes) / static_cast<double>(s.triangles);
-  return {row.algorithm,
-          row.variant,
-          grouped(s.strips),
-          grouped(s.singletons),
-          grouped(s.swaps),
-          grouped(s.entries),
-          grouped(s.indices_sent),
-          fmt::format("{:.3f}", f.indices_per_triangle()),
-          fmt::format("{:.3f}", s.acmr16),
-          byte_size(f.peak_bytes),
-          fmt::format("{:.0f}", bytes_per_triangle),
-          fmt::format("{:.1f}", f.milliseconds),
-          f.remark};
-}
-
-struct Comparison {
-  std::string file;
-  std::uint64_t triangles = 0, wedges = 0;
-  std::vector<Row> rows;
-};
 
 std::string heading(const Comparison& c) {
   return fmt::format("{}: {} triangles, {} wedges", escaped(c.file), grouped(c.triangles),
                      grouped(c.wedges));
 }
 
+std::vector<std::string> text_cells(const Row& row, std::string name, bool has_memory) {
+  const StripStats& s = row.metrics.stats;
+  std::vector<std::string> cells{std::move(name),
+                                 grouped(s.strips),
+                                 grouped(s.singletons),
+                                 grouped(s.swaps),
+                                 fmt::format("{:.3f}", row.metrics.indices_per_triangle()),
+                                 fmt::format("{:.3f}", s.acmr16),
+                                 fmt::format("{:.1f}", row.metrics.milliseconds)};
+  if (has_memory) cells.push_back(byte_size(row.metrics.peak_bytes));
+  return cells;
+}
+
+// Narrow enough for a terminal: variants stand below their algorithm, remarks below the table.
 void print_text(std::ostream& out, const Comparison& c) {
   out << heading(c) << "\n";
-  Table table(kColumns);
-  for (const Row& row : c.rows) table.add(cells(row));
+  std::vector<std::string> header{"stripifier", "strips", "single", "swaps",
+                                  "sent/T",     "ACMR",   "ms"};
+  if (c.has_memory) header.emplace_back("peak");
+  Table table(header);
+  std::string above;
+  for (const Row& row : c.rows) {
+    const bool has_variant = !row.variant.empty();
+    if (has_variant && row.algorithm != above) table.add({row.algorithm});
+    above = row.algorithm;
+    table.add(text_cells(row, has_variant ? "  " + row.variant : row.algorithm, c.has_memory));
+  }
   table.print(out);
+  for (const Row& row : c.rows)
+    if (!row.remark().empty())
+      out << fmt::format("{}{}{}: {}\n", row.algorithm, row.variant.empty() ? "" : ", ",
+                         row.variant, row.remark());
+}
+
+std::vector<std::string> markdown_cells(const Row& row, bool has_memory) {
+  const StripMetrics& m = row.metrics;
+  const StripStats& s = m.stats;
+  std::vector<std::string> cells{row.algorithm,
+                                 row.variant,
+                                 grouped(s.strips),
+                                 grouped(s.singletons),
+                                 grouped(s.swaps),
+                                 grouped(s.entries),
+                                 grouped(s.indices_sent),
+                                 fmt::format("{:.3f}", m.indices_per_triangle()),
+                                 fmt::format("{:.3f}", s.acmr16),
+                                 fmt::format("{:.1f}", m.milliseconds)};
+  if (has_memory) {
+    cells.push_back(byte_size(m.peak_bytes));
+    cells.push_back(fmt::format("{:.0f}", row.bytes_per_triangle()));
+  }
+  cells.push_back(row.remark());
+  return cells;
 }
 
 void print_markdown(std::ostream& out, const Comparison& c) {
-  out << "### " << heading(c) << "\n\n";
   const auto line = [&](const std::vector<std::string>& row) {
     out << fmt::format("| {} |\n", fmt::join(row, " | "));
   };
-  line(kColumns);
-  out << "|---|---|" << std::string("---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|")
-      << "---|\n";
-  for (const Row& row : c.rows) line(cells(row));
+  std::vector<std::string> header{"algorithm", "variant", "strips", "singletons", "swaps",
+                                  "indices",   "sent",    "sent/T", "ACMR 16",    "ms"};
+  if (c.has_memory) header.insert(header.end(), {"peak", "B/T"});
+  const std::size_t numbers = header.size() - 2;
+  header.emplace_back("remark");
+  out << "### " << heading(c) << "\n\n";
+  line(header);
+  out << "|---|---|";
+  for (std::size_t i = 0; i < numbers; ++i) out << "---:|";
+  out << "---|\n";
+  for (const Row& row : c.rows) line(markdown_cells(row, c.has_memory));
   out << "\n";
 }
 
-// Every text field is ours but the name of the file.
-std::string csv_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : escaped(text)) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
+void print_csv_header(std::ostream& out, bool has_memory) {
+  out << "file,algorithm,variant,triangles,strips,singletons,swaps,entries,indices_sent,"
+         "indices_per_triangle,acmr16,"
+      << (has_memory ? "peak_bytes," : "") << "milliseconds,remark\n";
 }
 
 void print_csv_rows(std::ostream& out, const Comparison& c) {
   for (const Row& row : c.rows) {
-    const StripFigures& f = row.figures;
-    const StripStats& s = f.stats;
-    out << fmt::format("{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},{},{:.3f},{}\n", csv_text(c.file),
+    const StripMetrics& m = row.metrics;
+    const StripStats& s = m.stats;
+    out << fmt::format("{},{},{},{},{},{},{},{},{},{:.6f},{:.6f},{}{:.3f},{}\n", csv_text(c.file),
                        row.algorithm, csv_text(row.variant), s.triangles, s.strips, s.singletons,
-                       s.swaps, s.entries, s.indices_sent, f.indices_per_triangle(), s.acmr16,
-                       f.peak_bytes, f.milliseconds, csv_text(f.remark));
+                       s.swaps, s.entries, s.indices_sent, m.indices_per_triangle(), s.acmr16,
+                       c.has_memory ? fmt::format("{},", m.peak_bytes) : "", m.milliseconds,
+                       csv_text(row.remark()));
   }
+}
+
+Json json_of_row(const Row& row, bool has_memory) {
+  const StripMetrics& m = row.metrics;
+  Json json{{"algorithm", row.algorithm},
+            {"variant", row.variant},
+            {"triangles", m.stats.triangles},
+            {"strips", m.stats.strips},
+            {"singletons", m.stats.singletons},
+            {"swaps", m.stats.swaps},
+            {"entries", m.stats.entries},
+            {"indices_sent", m.stats.indices_sent},
+            {"indices_per_triangle", m.indices_per_triangle()},
+            {"acmr16", m.stats.acmr16}};
+  if (has_memory) json["peak_bytes"] = m.peak_bytes;
+  json["milliseconds"] = m.milliseconds;
+  json["cpu_milliseconds"] = m.cpu_milliseconds;
+  json["remark"] = row.remark();
+  return json;
 }
 
 Json json_of_comparison(const Comparison& c) {
   Json rows = Json::array();
-  for (const Row& row : c.rows) {
-    const StripFigures& f = row.figures;
-    rows.push_back({{"algorithm", row.algorithm},
-                    {"variant", row.variant},
-                    {"triangles", f.stats.triangles},
-                    {"strips", f.stats.strips},
-                    {"singletons", f.stats.singletons},
-                    {"swaps", f.stats.swaps},
-                    {"entries", f.stats.entries},
-                    {"indices_sent", f.stats.indices_sent},
-                    {"indices_per_triangle", f.indices_per_triangle()},
-                    {"acmr16", f.stats.acmr16},
-                    {"peak_bytes", f.peak_bytes},
-                    {"milliseconds", f.milliseconds},
-                    {"cpu_milliseconds", f.cpu_milliseconds},
-                    {"remark", f.remark}});
-  }
+  for (const Row& row : c.rows) rows.push_back(json_of_row(row, c.has_memory));
   return {{"file", escaped(c.file)},
           {"triangles", c.triangles},
           {"wedges", c.wedges},
           {"algorithms", rows}};
+}
+
+// Prints what is found as soon as a model is done; JSON in one piece at the end.
+class Printer {
+ public:
+  Printer(const ComparisonOptions& options, std::ostream& out)
+      : format_(options.format), out_(out) {
+    if (format_ == "csv") print_csv_header(out_, static_cast<bool>(options.heap));
+  }
+  void print(const Comparison& comparison) {
+    if (format_ == "csv")
+      print_csv_rows(out_, comparison);
+    else if (format_ == "json")
+      json_["models"].push_back(json_of_comparison(comparison));
+    else if (format_ == "md")
+      print_markdown(out_, comparison);
+    else
+      print_text(out_, comparison);
+    out_.flush();
+  }
+  void finish() {
+    if (format_ == "json") out_ << json_.dump(2) << "\n";
+  }
+
+ private:
+  std::string format_;
+  std::ostream& out_;
+  Json json_{{"schema", "pstrips-stripify-compare-1"}, {"models", Json::array()}};
+};
+
+Comparison start_comparison(const std::string& path, const Model& model, bool has_memory) {
+  Comparison out{.file = path, .rows = {}, .has_memory = has_memory};
+  for (const Mesh& mesh : model.meshes) {
+    out.triangles += triangulate(mesh).face.size();
+    out.wedges += mesh.wedge_count();
+  }
+  return out;
+}
+
+Result<Model> open_model(const std::string& path, const Limits& limits) {
+  auto file = load(path, {.limits = limits, .allow_prefix = false, .text_options = {}});
+  if (!file) return tl::unexpected(file.error());
+  return std::move(*file).model();
 }
 
 }  // namespace
@@ -202,48 +293,31 @@ ExitCode compare_stripifiers(const ComparisonOptions& options, const Streams& io
   const std::vector<Run> runs = runs_of(options);
   for (const std::string& name : options.algorithms)
     if (std::ranges::none_of(runs, [&](const Run& run) { return run.algorithm->name == name; }))
-      return complain(io, {ErrorCode::bad_argument, "--algorithm: there is no " + name});
+      return report(io, {ErrorCode::bad_argument, "--algorithm: there is no " + name});
+  Printer printer(options, io.out);
   ProgressBar bar(io);
-  const Progress progress = bar.callback();
-  ExitCode worst = kOk;
-  Json json{{"schema", "pstrips-stripify-compare-1"}, {"models", Json::array()}};
-  if (options.format == "csv")
-    io.out << "file,algorithm,variant,triangles,strips,singletons,swaps,entries,indices_sent,"
-              "indices_per_triangle,acmr16,peak_bytes,milliseconds,remark\n";
+  const auto all = static_cast<double>(runs.size() * options.models.size());
   std::size_t done = 0;
+  ExitCode worst = kOk;
   for (const std::string& path : options.models) {
-    auto file = load(path, {.limits = options.limits, .allow_prefix = false, .text_options = {}});
-    auto model = file ? std::move(*file).model() : tl::unexpected(file.error());
+    auto model = open_model(path, options.limits);
     if (!model) {
-      const ExitCode code = complain(io, model.error(), path);
+      bar.clear();
+      const ExitCode code = report(io, model.error(), path);
       if (worst == kOk) worst = code;
       done += runs.size();
       continue;
     }
-    Comparison comparison{.file = path, .triangles = 0, .wedges = 0, .rows = {}};
-    for (const Mesh& mesh : model->meshes) {
-      comparison.triangles += triangulate(mesh).face.size();
-      comparison.wedges += mesh.wedge_count();
-    }
+    Comparison comparison = start_comparison(path, *model, static_cast<bool>(options.heap));
     for (const Run& run : runs) {
-      const double part =
-          static_cast<double>(done++) / static_cast<double>(runs.size() * options.models.size());
-      if (progress && !progress(fmt::format("{} {}", escaped(path), run.algorithm->name), part))
-        return complain(io, {ErrorCode::interrupted, "interrupted"});
-      comparison.rows.push_back({std::string(run.algorithm->name), run.variant,
-                                 measure(*model, run, options.time_limit)});
+      bar.show(fmt::format("{} {}", run.algorithm->name, run.variant),
+               static_cast<double>(done++) / all);
+      comparison.rows.push_back(measure(*model, run, options));
     }
-    if (options.format == "csv")
-      print_csv_rows(io.out, comparison);
-    else if (options.format == "json")
-      json["models"].push_back(json_of_comparison(comparison));
-    else if (options.format == "md")
-      print_markdown(io.out, comparison);
-    else
-      print_text(io.out, comparison);
-    io.out.flush();
+    bar.clear();
+    printer.print(comparison);
   }
-  if (options.format == "json") io.out << json.dump(2) << "\n";
+  printer.finish();
   return worst;
 }
 

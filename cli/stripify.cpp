@@ -9,10 +9,13 @@
 
 #include "cli/command.h"
 #include "cli/option_groups.h"
-#include "cli/output.h"
-#include "cli/strip_figures.h"
+#include "cli/output_option.h"
+#include "cli/progress_bar.h"
+#include "cli/report.h"
+#include "cli/strip_metrics.h"
 #include "cli/stripifier_table.h"
 #include "cli/stripify_tetra.h"
+#include "cli/table.h"
 #include "codecs/stripify/delaunay.h"
 #include "converters/capacity.h"
 
@@ -20,17 +23,16 @@ namespace pstrips::cli {
 namespace {
 
 struct Options {
-  std::vector<std::string> files;  // the input and perhaps an output; to compare: inputs
-  std::string algorithm;           // to compare: a list; empty: best, or all
+  std::vector<std::string> inputs;  // several to compare
+  std::string algorithm;            // to compare: a list; empty: best, or all
   bool compare = false;
+  OutputOption output;
   StripOptionsGroup stripping;
   FormatOption format;
-  TargetOption target;
   LimitOptions limits;
 
-  const std::string& input() const { return files[0]; }
+  const std::string& input() const { return inputs[0]; }
   std::string algorithm_or_best() const { return algorithm.empty() ? "best" : algorithm; }
-  std::string output() const { return files.size() > 1 ? files[1] : std::string(); }
 };
 
 // Those of --algorithm for each kind of input.
@@ -57,26 +59,26 @@ bool has_too_many_points(const Model& model) {
                              [](const Mesh& m) { return m.wedge_count() > kMaxDelaunayPoints; });
 }
 
-void print_text(std::ostream& out, const StripFigures& f, const std::string& algorithm,
+void print_text(std::ostream& out, const StripMetrics& m, const std::string& algorithm,
                 const Options& options) {
-  const StripStats& s = f.stats;
+  const StripStats& s = m.stats;
   Table table({"", ""});
   table.add({"triangles", grouped(s.triangles)});
   table.add({"strips", grouped(s.strips)});
   table.add({"of one triangle", grouped(s.singletons)});
   table.add({"swaps", grouped(s.swaps)});
   table.add({"indices sent", grouped(s.indices_sent)});
-  table.add({"a triangle", fmt::format("{:.3f}", f.indices_per_triangle())});
+  table.add({"a triangle", fmt::format("{:.3f}", m.indices_per_triangle())});
   table.add({"ACMR, FIFO 16", fmt::format("{:.3f}", s.acmr16)});
-  table.add({"milliseconds", fmt::format("{:.1f}", f.milliseconds)});
+  table.add({"milliseconds", fmt::format("{:.1f}", m.milliseconds)});
   out << escaped(options.input()) << ": " << algorithm << "\n";
   table.print(out);
 }
 
-void print_json(std::ostream& out, const StripFigures& f, const Error* error,
+void print_json(std::ostream& out, const StripMetrics& m, const Error* error,
                 const std::string& algorithm, const Options& options) {
   using Json = nlohmann::ordered_json;
-  const StripStats& s = f.stats;
+  const StripStats& s = m.stats;
   Json json;
   json["schema"] = "pstrips-stripify-1";
   json["file"] = escaped(options.input());
@@ -89,31 +91,48 @@ void print_json(std::ostream& out, const StripFigures& f, const Error* error,
   json["entries"] = s.entries;
   json["indices_sent"] = s.indices_sent;
   json["acmr16"] = s.acmr16;
-  json["milliseconds"] = f.milliseconds;
-  json["cpu_milliseconds"] = f.cpu_milliseconds;
+  json["milliseconds"] = m.milliseconds;
+  json["cpu_milliseconds"] = m.cpu_milliseconds;
   out << json.dump(2) << "\n";
-}
-
-Result<Model> open_model(const FileBytes& bytes, const Options& options) {
-  auto file = load(bytes, options.input(),
-                   {.limits = options.limits.limits, .allow_prefix = false, .text_options = {}});
-  if (!file) return tl::unexpected(file.error());
-  return std::move(*file).model();
-}
-
-ExitCode compare(const Options& options, const StripOptions& strip_options, const Streams& io) {
-  return compare_stripifiers({.models = options.files,
-                              .algorithms = split_list(options.algorithm),
-                              .strip_options = strip_options,
-                              .time_limit = options.stripping.time_limit,
-                              .format = options.format.format,
-                              .limits = options.limits.limits},
-                             io);
 }
 
 ExitCode refuse_input(const Options& options, const Error& error, const Streams& io) {
   if (options.format.json()) print_json(io.out, {}, &error, options.algorithm_or_best(), options);
-  return complain(io, error, options.input());
+  return report(io, error, options.input());
+}
+
+// What the command line alone decides, before any file is opened.
+Result<void> check_command_line(const Options& options) {
+  const auto refuse = [](std::string message) {
+    return fail(ErrorCode::bad_argument, std::move(message));
+  };
+  if (options.compare)
+    return options.output.given() ? Result<void>(refuse("--output does nothing with --compare"))
+                                  : Result<void>();
+  if (options.inputs.size() > 1)
+    return refuse("several models are for --compare; the output is named by -o");
+  if (options.format.csv() || options.format.md()) return refuse("csv and md are for --compare");
+  if (!options.algorithm.empty() && !Algorithm(options.algorithm).is_any())
+    return refuse("--algorithm takes one of those that --help lists, or several with --compare");
+  return options.output.given() ? options.output.check(options.inputs) : Result<void>();
+}
+
+// The format of the strips of a mesh, where they are written.
+Result<FileFormat> mesh_format(const OutputOption& output) {
+  const auto format = output.format();
+  if (format && is_progressive(*format))
+    return fail(ErrorCode::bad_argument, "use convert for progressive formats", kNoOffset,
+                output.path);
+  return format;
+}
+
+Result<void> check_size(const Model& model, bool takes_points, const Limits& limits) {
+  if (takes_points && has_too_many_points(model))
+    return fail(ErrorCode::over_limit, "more points than can be triangulated");
+  for (const Mesh& mesh : model.meshes)
+    if (auto fits = check_stripping_capacity(work_size(mesh), limits.memory_bytes); !fits)
+      return fits;
+  return {};
 }
 
 ExitCode stripify_model(Model model, const Options& options, const StripOptions& strip_options,
@@ -124,64 +143,77 @@ ExitCode stripify_model(Model model, const Options& options, const StripOptions&
   const bool takes_points = algorithm.points && (points_only || !algorithm.triangles);
   if (!takes_points && !algorithm.triangles)
     return refuse_input(options, {ErrorCode::unsupported, "holds no tetrahedra"}, io);
-  if (takes_points && has_too_many_points(model))
-    return refuse_input(options, {ErrorCode::over_limit, "more points than can be triangulated"},
-                        io);
-  for (const Mesh& mesh : model.meshes)
-    if (const auto fits =
-            check_stripping_capacity(work_size(mesh), options.limits.limits.memory_bytes);
-        !fits)
-      return refuse_input(options, fits.error(), io);
-  const std::string output = options.output();
-  const StripFigures figures =
-      takes_points ? measure_point_strips(model, *algorithm.points, strip_options, !output.empty())
-                   : measure_strips(model, *algorithm.triangles, strip_options, !output.empty());
-  if (!figures.remark.empty())
-    return complain(io, {ErrorCode::corrupt, name + " " + figures.remark});
+  if (const auto fits = check_size(model, takes_points, options.limits.limits); !fits)
+    return refuse_input(options, fits.error(), io);
+  const OutputOption& output = options.output;
+  const auto target = output.given() ? mesh_format(output) : FileFormat::ply;
+  if (!target) return report(io, target.error());
+
+  ProgressBar bar(io);
+  bar.show(name, 0);
+  const StripMetrics metrics =
+      takes_points ? measure_point_strips(model, *algorithm.points, strip_options, output.given())
+                   : measure_strips(model, *algorithm.triangles, strip_options, output.given());
+  bar.clear();
+  if (!metrics.fault.empty()) return report(io, {ErrorCode::corrupt, name + " " + metrics.fault});
   options.stripping.note_time_limit(io);
-  if (!output.empty()) {
-    const auto target = options.target.format_for(output);
-    if (!target) return complain(io, target.error());
-    if (is_progressive(*target))
-      return complain(io, {ErrorCode::bad_argument, "use convert for progressive formats"}, output);
-    const auto saved = save(model, output, *target, {.ascii = false, .strips = true});
-    if (!saved) return complain(io, saved.error(), output);
-    note(io, output, saved->notes);
+  if (output.given()) {
+    const auto saved =
+        save(model, output.path, *target, {.strips = true, .replace_companions = output.force});
+    if (!saved) return report_unsaved(io, saved.error(), output);
+    note(io, output.path, saved->notes);
+    list_written(io, saved->files);
   }
-  // Figures are the result; with the mesh on standard output they would be in its way.
-  std::ostream& out = output == "-" ? io.err : io.out;
+  // The metrics are the result; with the mesh on standard output they would stand in its way.
+  std::ostream& out = output.is_stdout() ? io.err : io.out;
   if (options.format.json())
-    print_json(out, figures, nullptr, name, options);
+    print_json(out, metrics, nullptr, name, options);
   else
-    print_text(out, figures, name, options);
+    print_text(out, metrics, name, options);
   return kOk;
+}
+
+ExitCode stripify_tetrahedra(const FileBytes& file, const Options& options,
+                             const StripOptions& strip_options, const Streams& io) {
+  if (!options.algorithm.empty() && !Algorithm(options.algorithm).tetrahedra)
+    return report(io, {ErrorCode::bad_argument, "tetrahedra take tetra-multi-path"},
+                  options.input());
+  const ExitCode code = stripify_tetra(file,
+                                       {.input = options.input(),
+                                        .output = options.output.path,
+                                        .json = options.format.json(),
+                                        .strip_options = strip_options,
+                                        .limits = options.limits.limits},
+                                       io);
+  options.stripping.note_time_limit(io);
+  return code;
+}
+
+Result<Model> open_model(const FileBytes& bytes, const Options& options) {
+  auto file = load(bytes, options.input(),
+                   {.limits = options.limits.limits, .allow_prefix = false, .text_options = {}});
+  if (!file) return tl::unexpected(file.error());
+  return std::move(*file).model();
+}
+
+ExitCode compare(const Options& options, const StripOptions& strip_options, const Streams& io) {
+  return compare_stripifiers({.models = options.inputs,
+                              .algorithms = split_list(options.algorithm),
+                              .strip_options = strip_options,
+                              .time_limit = options.stripping.time_limit,
+                              .format = options.format.format,
+                              .limits = options.limits.limits},
+                             io);
 }
 
 ExitCode run(const Options& options, const Streams& io) {
   const auto strip_options = options.stripping.get();
-  if (!strip_options) return complain(io, strip_options.error());
+  if (!strip_options) return report(io, strip_options.error());
+  if (const auto usable = check_command_line(options); !usable) return report(io, usable.error());
   if (options.compare) return compare(options, *strip_options, io);
-  if (!options.algorithm.empty() && !Algorithm(options.algorithm).is_any())
-    return complain(
-        io, {ErrorCode::bad_argument,
-             "--algorithm takes one of those that --help lists, or several with --compare"});
-  if (options.files.size() > 2 || options.format.csv() || options.format.md())
-    return complain(io, {ErrorCode::bad_argument, "several models, csv and md are for --compare"});
   const auto file = read_file(options.input(), options.limits.limits.memory_bytes);
-  if (file && holds_tetra_mesh(*file, options.input())) {
-    if (!options.algorithm.empty() && !Algorithm(options.algorithm).tetrahedra)
-      return complain(io, {ErrorCode::bad_argument, "tetrahedra take tetra-multi-path"},
-                      options.input());
-    const ExitCode code = stripify_tetra(*file,
-                                         {.input = options.input(),
-                                          .output = options.output(),
-                                          .json = options.format.json(),
-                                          .strip_options = *strip_options,
-                                          .limits = options.limits.limits},
-                                         io);
-    options.stripping.note_time_limit(io);
-    return code;
-  }
+  if (file && holds_tetra_mesh(*file, options.input()))
+    return stripify_tetrahedra(*file, options, *strip_options, io);
   auto opened = file ? open_model(*file, options) : Result<Model>(tl::unexpected(file.error()));
   return opened ? stripify_model(std::move(*opened), options, *strip_options, io)
                 : refuse_input(options, opened.error(), io);
@@ -192,26 +224,24 @@ ExitCode run(const Options& options, const Streams& io) {
 Command add_stripify(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
-      root.add_subcommand("stripify", "Cut a mesh into triangle strips and show the figures");
+      root.add_subcommand("stripify", "Cut a mesh into triangle strips and measure them");
   std::string names;
   for (const NamedStripifier& stripifier : stripifiers())
     names += (names.empty() ? "" : ", ") + std::string(stripifier.name);
-  app->add_option("files", options->files,
-                  "Model, points or progressive file, - for standard input; then a file for the "
-                  "triangles in strip order (glTF holds them as strips). Or tetrahedra (MEDIT); "
-                  "then a file for the strips as text")
+  app->add_option("files", options->inputs,
+                  "Model, points, tetrahedra (MEDIT) or progressive file, - for standard input; "
+                  "several with --compare")
       ->required();
-  app->add_flag("--compare", options->compare,
-                "A table of all algorithms, and of other libraries' that are installed; all files "
-                "are inputs");
+  options->output.add_named_to(*app,
+                               "File for the triangles in strip order, which glTF holds as strips; "
+                               "of tetrahedra, for the strips as text");
+  app->add_flag("--compare", options->compare, "A table of all algorithms");
   app->add_option("--algorithm,--stripifier", options->algorithm,
                   "One of " + names +
                       "; points: best, delaunay; tetrahedra: best, which is tetra-multi-path "
-                      "(default best); "
-                      "with --compare any number, parted by commas")
+                      "(default best); with --compare any number, parted by commas")
       ->type_name("NAME");
   options->stripping.add_to(*app);
-  options->target.add_to(*app);
   options->format.add_to(*app, {"text", "json", "csv", "md"});
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "cli/output.h"
+#include "cli/output_option.h"
+#include "cli/report.h"
+#include "cli/table.h"
 #include "codecs/stripify/tetra_multi_path.h"
 #include "converters/files.h"
 #include "formats/medit/medit.h"
@@ -14,7 +16,7 @@
 namespace pstrips::cli {
 namespace {
 
-struct Figures {
+struct Metrics {
   TetraStripStats stats;
   double milliseconds = 0;
 
@@ -25,7 +27,7 @@ struct Figures {
   }
 };
 
-void print_text(std::ostream& out, const Figures& f, const TetraJob& job) {
+void print_text(std::ostream& out, const Metrics& f, const TetraJob& job) {
   const TetraStripStats& s = f.stats;
   Table table({"", ""});
   table.add({"tetrahedra", grouped(s.tetrahedra)});
@@ -40,7 +42,7 @@ void print_text(std::ostream& out, const Figures& f, const TetraJob& job) {
   table.print(out);
 }
 
-void print_json(std::ostream& out, const Figures& f, const Error* error, const TetraJob& job) {
+void print_json(std::ostream& out, const Metrics& f, const Error* error, const TetraJob& job) {
   using Json = nlohmann::ordered_json;
   const TetraStripStats& s = f.stats;
   Json json;
@@ -64,25 +66,26 @@ ExitCode stripify_tetra(const FileBytes& file, const TetraJob& job, const Stream
   const auto mesh = load_tetra_mesh(file, job.limits);
   if (!mesh) {
     if (job.json) print_json(io.out, {}, &mesh.error(), job);
-    return complain(io, mesh.error(), job.input);
+    return report(io, mesh.error(), job.input);
   }
   const auto start = std::chrono::steady_clock::now();
   const TetraStrips strips =
       tetra_multi_path(mesh->tetrahedra, mesh->vertex_count(), job.strip_options);
   const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
   const std::string fault = find_tetra_strip_fault(mesh->tetrahedra, strips);
-  if (!fault.empty()) return complain(io, {ErrorCode::corrupt, fault}, job.input);
+  if (!fault.empty()) return report(io, {ErrorCode::corrupt, fault}, job.input);
   if (!job.output.empty()) {
     const Bytes text = write_tetra_strips(strips);
     const auto written = write_files({{job.output, text}});
-    if (!written) return complain(io, written.error(), job.output);
+    if (!written) return report(io, written.error(), job.output);
+    list_written(io, {{job.output, text.size()}});
   }
-  const Figures figures{tetra_strip_stats(strips), time.count()};
+  const Metrics metrics{tetra_strip_stats(strips), time.count()};
   std::ostream& out = job.output == "-" ? io.err : io.out;
   if (job.json)
-    print_json(out, figures, nullptr, job);
+    print_json(out, metrics, nullptr, job);
   else
-    print_text(out, figures, job);
+    print_text(out, metrics, job);
   return kOk;
 }
 

@@ -17,7 +17,7 @@ struct TetraJob {
   Limits limits;
 };
 
-/// Cuts the tetrahedra of a file into strips, checks them, writes them and prints the figures.
+/// Cuts the tetrahedra of a file into strips, checks them, writes them and prints the metrics.
 ExitCode stripify_tetra(const FileBytes& file, const TetraJob& job, const Streams& io);
 
 /// The one algorithm for tetrahedra.

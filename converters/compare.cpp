@@ -240,9 +240,9 @@ void compare_meshes(Side a, Side b, Comparison& out) {
     }
   }
   if (!differences.empty())
-    out.likeness = Likeness::different;
+    out.equivalence = Equivalence::different;
   else if (!exact)
-    out.likeness = std::max(out.likeness, Likeness::reordered);
+    out.equivalence = std::max(out.equivalence, Equivalence::reordered);
   for (std::string& d : differences) {
     if (!a.mesh->name.empty()) d = a.mesh->name + ": " + d;
     if (std::ranges::find(out.differences, d) == out.differences.end())
@@ -273,7 +273,7 @@ Soup soup_of(const Mesh& mesh) {
 
 Comparison compare(const Model& a, const Model& b, std::size_t samples) {
   Comparison out;
-  out.likeness = Likeness::exact;
+  out.equivalence = Equivalence::exact;
   out.scenes_equal = a.scene.materials == b.scene.materials && a.scene.images == b.scene.images &&
                      a.scene.nodes == b.scene.nodes;
   Model all_a, all_b;
@@ -285,9 +285,9 @@ Comparison compare(const Model& a, const Model& b, std::size_t samples) {
     all_a = one_mesh(a);
     all_b = one_mesh(b);
     compare_meshes({&all_a.meshes[0], &a.scene, {}, {}}, {&all_b.meshes[0], &b.scene, {}, {}}, out);
-    out.likeness = std::max(out.likeness, Likeness::reordered);
+    out.equivalence = std::max(out.equivalence, Equivalence::reordered);
   }
-  if (out.likeness != Likeness::different) return out;
+  if (out.equivalence != Equivalence::different) return out;
   if (paired) {
     all_a = one_mesh(a);
     all_b = one_mesh(b);

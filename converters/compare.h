@@ -8,7 +8,7 @@
 
 namespace pstrips::inline converters {
 
-enum class Likeness : std::uint8_t {
+enum class Equivalence : std::uint8_t {
   exact,      ///< the same vertices, wedges and faces in the same order, every value equal
   reordered,  ///< the same sets of vertices, wedges and faces; loops may start at another corner
   different,
@@ -20,12 +20,12 @@ struct AttributeDifference {
 };
 
 struct Comparison {
-  Likeness likeness = Likeness::different;
+  Equivalence equivalence = Equivalence::different;
   /// What differs, as phrases with figures ("vertices: 8 against 24"); empty unless different.
   std::vector<std::string> differences;
   /// Of attributes that both have, when the connectivity is the same and values are not.
   std::vector<AttributeDifference> attributes;
-  bool scenes_equal = false;  ///< materials, images and nodes; does not count for likeness
+  bool scenes_equal = false;  ///< materials, images and nodes; does not count for equivalence
   // Distances between the surfaces over the larger bounding-box diagonal; 0 unless different,
   // infinite when only one of the two has a surface.
   double hausdorff = 0;

@@ -16,29 +16,25 @@ MAY_INCLUDE = {
     "include": {"core", "codecs", "formats", "converters", "validators", "include"},
     "examples": {"include"},
     "web": {"core", "codecs", "formats", "converters", "web"},
-    "peers": {"core", "codecs", "peers"},
-    "cli": {"core", "codecs", "formats", "converters", "validators", "peers", "cli"},
+    "cli": {"core", "codecs", "formats", "converters", "validators", "cli"},
 }
 
 # The folders whose .cpp files may include a library's headers: one, but for the libraries that read
 # numbers and JSON wherever that is done.
 THIRD_PARTY = {
     "CLI/": {"cli"},
-    "OpenMesh/": {"peers"},
     "fast_float/": {"formats/text"},
     "fmt/": {"cli"},
-    "meshoptimizer.h": {"peers"},
     "nlohmann/": {"cli", "formats/gltf"},
     "openssl/": {"formats/pstrip/payload"},
     "tiny_gltf.h": {"formats/gltf"},
     "tinyxml2.h": {"formats/pstrip/xml"},
-    **{f"vtk{name}.h": {"peers"} for name in ("CellArray", "New", "Points", "PolyData", "Stripper")},
     "zlib.h": {"formats/pstrip/container", "examples"},
 }
 # Headers that cannot do without.
 IN_HEADERS = {("core/result.h", "tl/"), ("formats/gltf/json.h", "nlohmann/")}
 
-SYSTEM = {"fcntl.h", "malloc.h", "unistd.h", "sys/mman.h", "sys/stat.h"}
+SYSTEM = {"fcntl.h", "unistd.h", "sys/ioctl.h", "sys/mman.h", "sys/stat.h"}
 
 # An error's words and place are for people; what a program decides by is its code and its fault.
 _ERROR = r"\berror(?:\(\))?(?:\.|->)"

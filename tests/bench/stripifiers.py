@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Compares all stripifiers, ours, the literature's and other libraries', in one page.
 
-    stripifiers.py PSTRIPS POINTS_TABLES OUTPUT_FOLDER [SECTION …]
+    stripifiers.py PSTRIPS COMPARE_STRIPIFIERS POINTS_TABLES OUTPUT_FOLDER [SECTION …]
 
 Writes stripifiers.md, stripifiers.csv (every run) and plots as SVG. Sections: thesis, models, both,
 quads, progressive, scaling, points; without any, all of them. Models come from $PSTRIPS_MODELS or ../shared/models
@@ -65,8 +65,9 @@ def colours_of(names):
 class Bench:
     """Runs pstrips, tells what it does and keeps every figure."""
 
-    def __init__(self, pstrips, output, folder):
-        self.pstrips, self.output, self.folder = pstrips, output, folder
+    def __init__(self, pstrips, comparer, output, folder):
+        self.pstrips, self.comparer = pstrips, comparer
+        self.output, self.folder = output, folder
         self.section, self.rows, self.page = "", [], []
         self.start = time.monotonic()
 
@@ -79,8 +80,8 @@ class Bench:
     def write(self, words):
         self.page.append(words)
 
-    def run(self, *arguments):
-        command = [self.pstrips, *map(str, arguments)]
+    def run(self, *arguments, program=None):
+        command = [program or self.pstrips, *map(str, arguments)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             sys.exit(f"\nfailed with status {done.returncode}: {' '.join(command)}\n{done.stderr}")
@@ -96,7 +97,7 @@ class Bench:
         """A row for each algorithm and variant; without `algorithms`, of all and the peers."""
         self.say(f"{model} {' '.join(map(str, options))}")
         chosen = ["--algorithm", ",".join(algorithms)] if algorithms else []
-        out = self.run("stripify", "--compare", "--format", "json", *chosen, *options, path)
+        out = self.run("--format", "json", *chosen, *options, path, program=self.comparer)
         return self._keep(model, json.loads(out)["models"][0]["algorithms"])
 
     def best(self, model, path, goal, effort, price=3):
@@ -486,14 +487,14 @@ def load():
 
 
 def main():
-    if len(sys.argv) < 4:
+    if len(sys.argv) < 5:
         sys.exit(__doc__.strip())
-    pstrips, points_tables, output, *chosen = sys.argv[1:]
+    pstrips, comparer, points_tables, output, *chosen = sys.argv[1:]
     folder, output = models_folder(), pathlib.Path(output)
     models = {name: folder / "classic" / file for name, file in MODELS.items()
               if (folder / "classic" / file).is_file()}
     with tempfile.TemporaryDirectory() as temporary:
-        bench = Bench(pstrips, output, pathlib.Path(temporary))
+        bench = Bench(pstrips, comparer, output, pathlib.Path(temporary))
         sections = {"thesis": lambda: thesis(bench, models),
                     "models": lambda: every_model(bench, models),
                     "both": lambda: both_goals(bench, models),

@@ -9,12 +9,12 @@
 
 #include "codecs/stripify/stats.h"
 #include "codecs/stripify/stripify.h"
-#include "peers/peers.h"
+#include "tests/bench/peers/peers.h"
 #include "tests/support/meshes.h"
 #include "tests/support/models.h"
 #include "tests/support/strip_check.h"
 
-namespace pstrips {
+namespace pstrips::bench {
 namespace {
 
 using test::StripMesh;
@@ -86,11 +86,11 @@ void add_models() {
 }
 
 }  // namespace
-}  // namespace pstrips
+}  // namespace pstrips::bench
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  pstrips::add_models();
+  pstrips::bench::add_models();
   benchmark::RunSpecifiedBenchmarks();
 }

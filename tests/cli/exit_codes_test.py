@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from support import GOLDEN, GOLDEN_XML, ProgramTest
+from support import CUBE, GOLDEN, GOLDEN_XML, ProgramTest
 
 HUGE = ((["convert"], ["out.pstrip"]), (["stripify"], []), (["compare", "tube.obj"], []), (["inspect"], []))
 
@@ -13,11 +13,23 @@ CASES = [
     ([], 1, "", "subcommand is required"),
     (["--help"], 0, "Exit codes: 0 ok", ""),
     (["--version"], 0, "pstrips ", ""),
+    *((["-V"], 0, f"{library} ", "")
+      for library in ("pstrips", "zlib", "OpenSSL", "tinyxml2", "nlohmann-json", "fmt", "CLI11")),
     (["no-such-command"], 1, "", "--help"),
+    (["convrt", "tube.obj", "out.ply"], 1, "", "there is no command convrt; did you mean convert?"),
+    (["-q", "stripfiy", "tube.obj"], 1, "", "did you mean stripify?"),
+    (["inspect", "tube.obj", "--formt", "json"], 1, "", "Instead of --formt did you mean --format?"),
     *(([command, "--help"], 0, "Exit codes: 0 ok", "")
       for command in ("convert", "validate", "inspect", "extract", "compare", "stripify")),
     (["convert"], 1, "", "input is required"),
     (["convert", "tube.obj"], 1, "", "output is required"),
+    (["convert", "tube.obj", "-o"], 1, "", "--output"),
+    (["convert", "tube.obj", "tube.obj"], 1, "", "is the input, too; --force replaces it (at tube.obj)"),
+    (["convert", "tube.obj", "./hard.obj"], 1, "", "--force"),
+    (["convert", "tube.obj", "-o", "soft.obj"], 1, "", "--force"),
+    (["extract", "good.pstrip", "good.pstrip", "--cut"], 1, "", "--force"),
+    (["stripify", "tube.obj", "-o", "tube.obj"], 1, "", "--force"),
+    (["stripify", "cube.mesh", "-o", "cube.mesh"], 1, "", "--force"),
     (["convert", "tube.obj", "out.ply", "--no-such-option"], 1, "", "--no-such-option"),
     (["convert", "tube.obj", "out.unknown"], 1, "", "--to"),
     (["convert", "tube.obj", "out"], 1, "", "--to"),
@@ -33,7 +45,29 @@ CASES = [
        "--attribute-weight") for weight in ("NORMAL", "=1", "A=", "A=x", "A=-1", "A=nan", "A=1e9")),
     (["convert", "tube.obj", "out.pstrip", "--placement", "free"], 1, "", "--placement"),
     (["convert", "tube.obj", "out.pstrip", "--base-error", "-1"], 1, "", "--base-error"),
-    (["convert", "good.pstrip", "out.ply", "--level", "-1"], 1, "", "--level"),
+    (["convert", "good.pstrip", "out.ply", "--level", "-1"], 1, "", "--level: -1 is not a whole number from 0"),
+    # Options that do nothing.
+    (["convert", "tube.obj", "out.ply", "--base", "5%"], 1, "", "--base does nothing for a ply file"),
+    (["convert", "tube.obj", "out.glb", "--goal", "strips"], 1, "", "--goal does nothing for a glb file"),
+    (["convert", "tube.obj", "out.obj", "--ascii"], 1, "", "--ascii does nothing for a obj file"),
+    (["convert", "tube.obj", "out.ply", "--gltf-strips"], 1, "", "--gltf-strips does nothing for a ply file"),
+    (["convert", "good.pstrip", "out.pstripx", "--strips", "naive"], 1, "", "--strips does nothing to progressive"),
+    (["convert", "good.pstrip", "out.ply", "--level", "99"], 1, "", "--level 99: the file has levels 0 to "),
+    (["extract", "good.pstrip", "out.ply", "--level", "99"], 1, "", "--level 99: the file has levels 0 to "),
+    (["compare", "tube.obj", "tube.obj", "--triangles", "9"], 1, "", "a level does nothing: neither file has levels"),
+    (["convert", "tube.obj", "out.ply", "--attributes", "COLOR_0"], 1, "",
+     "--attributes: no mesh has an attribute COLOR_0; there are NORMAL, POSITION, TEXCOORD_0"),
+    (["convert", "tube.obj", "out.pstrip", "--attribute-weight", "COLOR_0=1"], 1, "",
+     "--attribute-weight: no mesh has an attribute COLOR_0; there are NORMAL, POSITION, TEXCOORD_0"),
+    # Numbers.
+    (["compare", "tube.obj", "tube.obj", "--samples", "1k"], 0, "exact", ""),
+    (["compare", "tube.obj", "tube.obj", "--samples", "1G"], 1, "", "1G is not a whole number from 1 to 100,000,000"),
+    (["inspect", "tube.obj", "--max-memory", "1M", "--max-vertices", "1.5k"], 0, "tube.obj", ""),
+    (["inspect", "tube.obj", "--max-memory", "1Ki"], 3, "", "more than the limit of 1024"),
+    (["inspect", "tube.obj", "--max-memory", "-1"], 1, "", "-1 is not a whole number from 0, perhaps with k, M, G"),
+    (["inspect", "tube.obj", "--max-depth", "5G"], 1, "", "5G is not a whole number from 0 to 4,294,967,295"),
+    (["extract", "good.pstrip", "out.ply", "--triangles", "101%"], 1, "", "--triangles: 101% is neither"),
+    (["extract", "good.pstrip", "out.ply", "--error", "-1%"], 1, "", "--error: -1% is neither"),
     (["convert", "good.pstrip", "out.ply", "--level", "1", "--triangles", "9"], 1, "", "excludes"),
     (["validate"], 1, "", "no file"),
     (["validate", "good.pstrip", "--format", "xml"], 1, "", "--format"),
@@ -46,24 +80,34 @@ CASES = [
     (["extract", "good.pstrip", "out.ply", "--triangles", "few"], 1, "", "--triangles"),
     (["compare", "tube.obj"], 1, "", "b is required"),
     (["compare", "tube.obj", "tube.obj", "--samples", "0"], 1, "", "--samples"),
-    (["stripify", "tube.obj", "out.pstrip"], 1, "", "convert"),
+    (["stripify", "tube.obj", "-o", "out.pstrip"], 1, "", "convert"),
     (["stripify", "tube.obj", "--algorithm", "none"], 1, "", "--algorithm"),
     (["stripify", "tube.obj", "--algorithm", "best,sgi-strips"], 1, "", "--compare"),
     (["stripify", "tube.obj", "--algorithm", "none", "--compare"], 1, "", "there is no none"),
-    (["stripify", "tube.obj", "a.ply", "b.ply"], 1, "", "--compare"),
+    (["stripify", "tube.obj", "sheets.ply"], 1, "", "several models are for --compare; the output is named by -o"),
+    (["stripify", "tube.obj", "--compare", "-o", "out.ply"], 1, "", "--output does nothing with --compare"),
     (["stripify", "tube.obj", "--format", "csv"], 1, "", "--compare"),
     (["stripify", "tube.obj", "--time-limit", "-1"], 1, "", "--time-limit"),
     # Good runs.
     (["convert", "tube.obj", "out.pstrip"], 0, "", "tube.obj ("),
     (["validate", "good.pstrip"], 0, "good.pstrip: valid\n", ""),
+    (["validate", "--ignore", "PS1006", "good.pstrip"], 0, "good.pstrip: valid (PS1006 ignored)\n", ""),
+    (["validate", "--ignore", "PS1006,PS1001", "good.pstrip"], 0, "valid (PS1006, PS1001 ignored)\n", ""),
+    (["convert", "tube.obj", "out.pstrip", "--attribute-weight", "TEXCOORD=0.1"], 0, "", ""),
     (["inspect", "good.pstrip"], 0, "plain profile", ""),
+    (["convert", "-o", "out.ply", "tube.obj"], 0, "", "-> out.ply ("),
     (["extract", "good.pstrip", "out.ply"], 0, "", "packet "),
+    (["extract", "good.pstrip", "-o", "out.ply"], 0, "", "wrote out.ply ("),
     (["compare", "tube.obj", "tube.obj"], 0, "exact: ", ""),
     (["stripify", "tube.obj"], 0, "indices sent", ""),
+    (["stripify", "tube.obj", "-o", "out.ply"], 0, "indices sent", "wrote out.ply ("),
+    (["stripify", "cube.mesh", "--output", "out.ply"], 0, "vertices sent", "wrote out.ply ("),
     # The operating system refuses.
     (["convert", "missing.obj", "out.ply"], 2, "", "missing.obj: cannot open"),
     (["convert", ".", "out.ply"], 2, "", "is a folder"),
+    # Found before the work: the huge file is not opened.
     (["convert", "tube.obj", "missing/out.ply"], 2, "", "missing/out.ply"),
+    (["convert", "huge.ply", "missing/out.ply"], 2, "", "missing/out.ply"),
     (["convert", "tube.obj", "tube.obj/out.ply"], 2, "", "tube.obj/out.ply"),
     (["convert", "tube.obj", "folder.ply"], 2, "", "is a folder"),
     (["convert", "tube.obj", "/dev/full", "--to", "ply"], 2, "", "/dev/full"),
@@ -73,7 +117,7 @@ CASES = [
     (["extract", "good.pstrip", "missing/out.ply"], 2, "", "missing/out.ply"),
     (["compare", "tube.obj", "missing.obj"], 2, "", "missing.obj: cannot open"),
     (["stripify", "missing.obj"], 2, "", "missing.obj: cannot open"),
-    (["stripify", "tube.obj", "missing/out.glb"], 2, "", "missing/out.glb"),
+    (["stripify", "tube.obj", "-o", "missing/out.glb"], 2, "", "missing/out.glb"),
     # Broken files.
     *(([*command, "corrupt.ply", *rest], 3, "", "corrupt.ply: corrupt: ")
       for command, rest in ((["convert"], ["out.obj"]), (["inspect"], []), (["stripify"], []),
@@ -104,6 +148,8 @@ CASES = [
     # What the program does not know.
     (["convert", "noise.bin", "out.ply"], 5, "", "unsupported: "),
     (["inspect", "noise.bin"], 5, "", "unsupported: "),
+    (["inspect", "solid.stl"], 5, "", "ply, obj, gltf, glb"),
+    (["validate", "tube.obj"], 5, "tube.obj: not covered\n", "the validator covers pstrip and pstripx, not obj"),
     (["compare", "tube.obj", "noise.bin"], 5, "", "unsupported: "),
     (["stripify", "noise.bin"], 5, "", "unsupported: "),
     (["extract", "tube.obj", "out.ply"], 5, "", "has no levels"),
@@ -168,6 +214,10 @@ class ExitCodes(ProgramTest):
         self.write("huge.gltf", HUGE_GLTF)
         os.truncate(self.write("huge.bin", b""), 12_000_000_036)
         (self.folder / "folder.ply").mkdir()
+        self.write("cube.mesh", CUBE)
+        self.write("solid.stl", "solid\nfacet normal 0 0 1\n")
+        (self.folder / "hard.obj").hardlink_to(self.folder / "tube.obj")
+        (self.folder / "soft.obj").symlink_to("tube.obj")
 
     def test_table(self):
         before = {path.name for path in self.folder.iterdir()}
@@ -176,6 +226,7 @@ class ExitCodes(ProgramTest):
                 run = self.run_program(*arguments, code=code)
                 self.assertIn(out, run.out.decode())
                 self.assertIn(err, run.err)
+                self.assertNotIn("18446744073709551615", run.err)
                 new = {path.name for path in self.folder.iterdir()} - before
                 if code in (0, 7):
                     self.assertLessEqual(new, {"out.pstrip", "out.ply"}, "only what was asked for")

@@ -43,10 +43,10 @@ class Levels(ProgramTest):
             for metric in ("qem", "memoryless"):
                 done = self.run_program("convert", "-v", "grid.obj", "out.pstrip", "--keep-order",
                                         "--placement", placement, "--metric", metric)
-                self.assertRegex(done.err, r"3,200 -> 1\d\d triangles, as asked")
-                self.assertRegex(done.err, r"put off: [\d,]+ by border, [\d,]+ by topology, "
+                self.assertRegex(done.err, r"3,200 -> 1\d\d triangles, as wanted")
+                self.assertRegex(done.err, r"put off: [\d,]+ by border, [\d,]+ by topology,\n    "
                                            r"[\d,]+ by flipped faces, [\d,]+ by flipped texture")
-                self.assertEqual(self.likeness("grid.obj", "out.pstrip"), "exact")
+                self.assertEqual(self.equivalence("grid.obj", "out.pstrip"), "exact")
                 self.run_program("validate", "-q", "out.pstrip")
 
     def test_level(self):
@@ -56,10 +56,12 @@ class Levels(ProgramTest):
                     self.run_program(command, "-q", "grid.pstrip", "out.ply", option,
                                      packet["packet"])
                     self.assertEqual(self.triangles_of("out.ply"), packet["triangles"])
-        self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--level", "999999")
-        self.assertEqual(self.likeness("grid.obj", "out.ply"), "exact")
+        last = len(self.packets) - 1
+        for command in ("extract", "convert"):
+            run = self.run_program(command, "grid.pstrip", "out.ply", "--level", last + 1, code=1)
+            self.assertIn(f"--level {last + 1}: the file has levels 0 to {last}", run.err)
         self.run_program("extract", "-q", "grid.pstrip", "out.ply")
-        self.assertEqual(self.likeness("grid.obj", "out.ply"), "exact")
+        self.assertEqual(self.equivalence("grid.obj", "out.ply"), "exact")
 
     def test_triangles_and_error(self):
         for packet, after in zip(self.packets, self.packets[1:]):
@@ -72,6 +74,15 @@ class Levels(ProgramTest):
             self.run_program("extract", "-q", "grid.pstrip", "out.obj", "--error",
                              repr(after["error"]))
             self.assertEqual(self.triangles_of("out.obj"), wanted["triangles"])
+        # Shares are of the full model's triangles and of its diagonal.
+        self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--triangles", "50%")
+        most = max(p["triangles"] for p in self.packets if p["triangles"] <= 1600)
+        self.assertEqual(self.triangles_of("out.ply"), most)
+        diagonal = self.report("inspect", "grid.obj")["bounding_box"]["diagonal"]
+        self.assertAlmostEqual(diagonal, (40**2 + 40**2 + 10**2) ** 0.5)
+        self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--error", "5%")
+        wanted = next(p for p in self.packets if p["error"] <= 0.05 * diagonal)
+        self.assertEqual(self.triangles_of("out.ply"), wanted["triangles"])
         # Coarser than the base is the base.
         self.run_program("extract", "-q", "grid.pstrip", "out.ply", "--triangles", "0")
         self.assertEqual(self.triangles_of("out.ply"), self.packets[0]["triangles"])
@@ -96,8 +107,8 @@ class Levels(ProgramTest):
                     self.assertEqual(report["triangles"], packet["triangles"])
                     self.assertEqual(len(report["packets"]), packet["packet"] + 1)
                 self.run_program("extract", "-q", source, "level.ply", "--level", packet["packet"])
-                self.assertEqual(self.likeness("cut.pstrip", "level.ply"), "exact")
-                self.assertEqual(self.likeness("cut.pstripx", "level.ply"), "exact")
+                self.assertEqual(self.equivalence("cut.pstrip", "level.ply"), "exact")
+                self.assertEqual(self.equivalence("cut.pstripx", "level.ply"), "exact")
         # Nothing cut off is the file itself.
         self.run_program("extract", "-q", "--cut", "grid.pstrip", "whole.pstrip")
         self.assertEqual(self.read("whole.pstrip"), self.read("grid.pstrip"))
@@ -143,7 +154,7 @@ class Levels(ProgramTest):
                 for target in ("own.pstrip", "own.pstripx"):
                     self.run_program(*command, "-q", "prefix.pstrip", target)
                     self.run_program("validate", "--warnings-as-errors", target)
-                    self.assertEqual(self.likeness(target, "level.ply"), "exact")
+                    self.assertEqual(self.equivalence(target, "level.ply"), "exact")
 
     def test_every_prefix_of_the_golden_file_is_truncated(self):
         golden = GOLDEN.read_bytes()

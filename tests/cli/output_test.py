@@ -1,8 +1,12 @@
 """What the program leaves behind: on the disk, on the terminal and in a pipe."""
 
+import fcntl
 import os
+import re
 import signal
+import struct
 import subprocess
+import termios
 import time
 import unittest
 
@@ -64,8 +68,42 @@ class Output(ProgramTest):
             if "NO_COLOR" in extra:
                 self.assertNotIn(b"\x1b", shown)
 
-    def run_on_terminal(self, arguments, extra):
+    def test_progress_keeps_within_the_terminal(self):
+        for columns in (20, 40, 80):
+            for arguments in (("convert", "tube.obj", "out.pstrip"), ("stripify", "tube.obj"),
+                              ("compare", "tube.obj", "tube.obj"),
+                              ("stripify", "--compare", "tube.obj")):
+                code, shown = self.run_on_terminal(arguments, {}, columns)
+                self.assertEqual(code, 0)
+                bars = re.findall(r"\r\x1b\[K([^\r\n]*)(?=\r\x1b)", shown.decode())
+                self.assertTrue(any("%" in bar for bar in bars), (arguments, shown))
+                self.assertLess(max(map(len, bars)), columns)
+                # What is printed begins on a line that was cleared.
+                after = shown.decode().split("\r\x1b[K")[-1]
+                self.assertNotIn("%", after.splitlines()[0])
+
+    def test_tables_fit_eighty_columns(self):
+        self.write("grid.obj", bumpy_grid(200))
+        self.run_program("convert", "-q", "grid.obj", "grid.pstrip")
+        for arguments in (("inspect", "grid.pstrip"), ("inspect", "grid.obj"), ("stripify", "grid.obj"),
+                          ("stripify", "--compare", "grid.obj", "--time-limit", "0.2"),
+                          ("compare", "grid.obj", "grid.pstrip", "--level", "0", "--samples", "1k")):
+            run = self.run_program(*arguments, code=7 if arguments[0] == "compare" else 0)
+            for line in (run.out.decode() + run.err).splitlines():
+                self.assertLessEqual(len(line), 80, line)
+
+    def test_progress_moves_and_shows_the_time_left(self):
+        long_search = ("--strip-effort", "4000000000", "--time-limit", "1.5")
+        _, shown = self.run_on_terminal(("stripify", "tube.obj", *long_search), {})
+        self.assertGreater(len(set(re.findall(rb"best[^\r]*", shown))), 1)
+        self.assertIn(b" 0:01", shown)
+        _, shown = self.run_on_terminal(("stripify", "--compare", "tube.obj", "tube.obj",
+                                         "--algorithm", "best", *long_search), {})
+        self.assertRegex(shown, rb"0:0\d, 0:0\d left")
+
+    def run_on_terminal(self, arguments, extra, columns=80):
         ours, theirs = os.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
         environment = {k: v for k, v in os.environ.items() if k != "NO_COLOR"} | extra
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stdin=theirs,
                                    stdout=theirs, stderr=theirs, env=environment)
@@ -91,7 +129,7 @@ class Output(ProgramTest):
                    "0 0 0 1\n")
         for arguments, code in ((("inspect", name), 0), (("stripify", name), 0),
                                 (("convert", name, ESCAPE + ".pm"), 0),
-                                (("validate", name), 3), (("validate", ESCAPE), 2),
+                                (("validate", name), 5), (("validate", ESCAPE), 2),
                                 (("inspect", "red.ply"), 0),
                                 (("compare", "red.ply", "plain.obj"), 7),
                                 (("convert", name, f"{ESCAPE}/x.ply"), 2),
@@ -123,11 +161,41 @@ class Output(ProgramTest):
                 self.assertEqual(done.returncode, 2, arguments)
                 self.assertIn(b"standard output", done.stderr)
 
-    def test_converting_onto_itself(self):
+    def test_converting_onto_itself_takes_force(self):
         self.run_program("convert", "-q", "tube.obj", "same.glb")
         before = self.read("same.glb")
-        self.run_program("convert", "-q", "same.glb", "same.glb")
+        self.run_program("convert", "-q", "same.glb", "same.glb", code=1)
+        self.run_program("convert", "-q", "same.glb", "same.glb", "--force")
         self.assertEqual(self.read("same.glb"), before)
+
+    def test_inputs_are_never_outputs(self):
+        self.run_program("convert", "-q", "tube.obj", "one.ply")
+        self.run_program("convert", "-q", "tube.obj", "two.ply", "--attributes", "none")
+        before = self.read("two.ply")
+        self.run_program("stripify", "one.ply", "two.ply", code=1)
+        self.assertEqual(self.read("two.ply"), before)
+
+    def test_companions_that_were_not_named_stay(self):
+        for target, companion in (("out.gltf", "out.bin"), ("out.obj", "out.mtl")):
+            self.write(companion, "mine")
+            commands = (["convert", "tube.obj", target], ["stripify", "tube.obj", "-o", target])
+            for command in commands:
+                run = self.run_program(*command, code=2)
+                self.assertIn(f"(at {companion})\n--force replaces it.\n", run.err)
+                self.assertEqual(self.read(companion), b"mine")
+                self.assertFalse((self.folder / target).exists())
+            self.run_program(*commands[0], "--force")
+            self.assertNotEqual(self.read(companion), b"mine")
+            self.run_program(*commands[0])  # the same bytes again replace nothing
+        self.run_program("extract", "good.pstrip", "out.gltf", code=2)
+
+    def test_every_file_that_was_written_is_listed(self):
+        run = self.run_program("convert", "tube.obj", "out.gltf")
+        self.assertRegex(run.err, r"tube.obj \(.*\) -> out.gltf \(.*\), out.bin \(.*\)\n")
+        run = self.run_program("extract", "good.pstrip", "level.obj")
+        self.assertRegex(run.err, r"wrote level.obj \(.*\)")
+        run = self.run_program("stripify", "tube.obj", "-o", "strips.obj")
+        self.assertRegex(run.err, r"wrote strips.obj \(.*\), strips.mtl \(.*\)\n")
 
 
 class Interrupt(ProgramTest):

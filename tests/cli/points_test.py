@@ -3,30 +3,7 @@
 import random
 import unittest
 
-from support import ProgramTest
-
-CUBE = """MeshVersionFormatted 2
-Dimension 3
-Vertices
-8
-0 0 0 1
-1 0 0 1
-0 1 0 1
-1 1 0 1
-0 0 1 1
-1 0 1 1
-0 1 1 1
-1 1 1 1
-Tetrahedra
-6
-1 2 4 8 0
-1 4 3 8 0
-1 3 7 8 0
-1 7 5 8 0
-1 5 6 8 0
-1 6 2 8 0
-End
-"""
+from support import CUBE, ProgramTest
 
 
 def tetrahedra_of(text):
@@ -63,7 +40,7 @@ class Points(ProgramTest):
         self.assertEqual(figures["algorithm"], "delaunay")
         self.assertGreater(figures["triangles"], 2 * 200 - 2 - 40)
         for name in ("out.ply", "out.obj", "out.glb"):
-            self.run_program("stripify", "points.xyz", name)
+            self.run_program("stripify", "points.xyz", "-o", name)
             again = self.report("stripify", name, "--algorithm", "sgi-strips")
             self.assertEqual(again["triangles"], figures["triangles"], name)
 
@@ -82,7 +59,7 @@ class Points(ProgramTest):
     def test_same_points_same_bytes(self):
         self.write_points()
         for name in ("a.glb", "b.glb"):
-            self.run_program("stripify", "points.xyz", name)
+            self.run_program("stripify", "points.xyz", "-o", name)
         self.assertEqual(self.read("a.glb"), self.read("b.glb"))
 
     def test_broken_points(self):
@@ -97,7 +74,7 @@ class Points(ProgramTest):
 class Tetrahedra(ProgramTest):
     def test_strips_show_each_tetrahedron_once(self):
         self.write("cube.mesh", CUBE)
-        figures = self.report("stripify", "cube.mesh", "strips.txt", "--algorithm",
+        figures = self.report("stripify", "cube.mesh", "-o", "strips.txt", "--algorithm",
                               "tetra-multi-path", schema="stripify-tetra")
         self.assertEqual((figures["tetrahedra"], figures["strips"], figures["entries"]), (6, 1, 9))
         rows = CUBE.split("Tetrahedra\n6\n")[1].splitlines()[:6]
@@ -107,14 +84,14 @@ class Tetrahedra(ProgramTest):
     def test_known_by_its_first_word(self):
         self.write("cube", CUBE)
         self.assertIn(b"tetrahedra a strip", self.run_program("stripify", "cube").out)
-        run = self.run_program("stripify", "-", "-", stdin=CUBE.encode())
+        run = self.run_program("stripify", "-", "-o", "-", stdin=CUBE.encode())
         self.assertTrue(run.out.startswith(b"TetraStrips 1\n"), run)
 
     def test_broken_tetrahedra(self):
         for text, code, words in ((CUBE[:-40], 3, "ends within"), (CUBE.replace("1 6 2 8", "1 6 2 9"), 3, "not there"),
                                   ("no mesh at all\n", 3, "MEDIT"), (CUBE.replace("Dimension 3", "Dimension 2"), 5, "two")):
             self.write("broken.mesh", text)
-            self.assertIn(words, self.run_program("stripify", "broken.mesh", "out.txt", code=code).err)
+            self.assertIn(words, self.run_program("stripify", "broken.mesh", "-o", "out.txt", code=code).err)
             self.assertFalse((self.folder / "out.txt").exists())
             report = self.report("stripify", "broken.mesh", code=code, schema="stripify-tetra")
             self.assertIn(words, report["error"]["message"])

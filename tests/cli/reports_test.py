@@ -9,8 +9,6 @@ import zlib
 
 from support import GOLDEN, GOLDEN_XML, ProgramTest, Run
 
-# Of ours, some: other libraries' may be there or not.
-HELP_STRIPIFIERS = ("best", "sgi-strips", "sgi-vertices", "mstrip", "dstrips-greedy")
 COMMANDS = ("validate", "inspect", "stripify", "compare")
 # Overlong, a surrogate, beyond Unicode, and never a byte of UTF-8.
 BROKEN_NAME = b"b\xe0\x80\x80\xed\xa0\x80\xf4\x90\x80\x80\xff.obj".decode(errors="surrogateescape")
@@ -151,6 +149,7 @@ class Validate(ProgramTest):
         for arguments in (["--ignore", ",".join(codes)], [a for c in codes for a in ("--ignore", c)]):
             report = self.report("validate", "bad.pstrip", *arguments)
             self.assertEqual(report["issues"], [])
+            self.assertEqual(report["ignored"], codes)
             self.assertTrue(report["valid"])
         self.report("validate", "cut.pstrip", "--ignore", "PS1006", code=3)
 
@@ -205,9 +204,8 @@ class Stripify(ProgramTest):
             self.assertLessEqual(rows["best", "high, strips"]["strips"], rows["best", "fast"]["strips"])
             self.assertLess(rows["best", "high"]["indices_sent"], rows["sgi-strips", ""]["indices_sent"])
             for row in rows.values():
-                self.assertGreater(row["peak_bytes"], 4 * row["indices_sent"])
-                if row["algorithm"] in HELP_STRIPIFIERS:
-                    self.assertEqual((row["remark"], row["triangles"]), ("", 352), row)
+                self.assertNotIn("peak_bytes", row)
+                self.assertEqual((row["remark"], row["triangles"]), ("", 352), row)
 
     def test_comparison_formats(self):
         self.write_tube()
@@ -222,7 +220,8 @@ class Stripify(ProgramTest):
                                      *chosen).out.decode().splitlines()
             self.assertIn("tube.obj: 352 triangles", lines[0])
             for row in csv_rows:
-                self.assertTrue(any(row["algorithm"] in line and row["strips"] in line for line in lines))
+                name = row["algorithm"] if kind == "md" else row["variant"] or row["algorithm"]
+                self.assertTrue(any(name in line and row["strips"] in line for line in lines))
 
     def test_comparison_goes_on_after_a_broken_file(self):
         self.write_tube()
@@ -240,16 +239,16 @@ class Stripify(ProgramTest):
         self.assertIn("352", run.out.decode())
         run = self.run_program("convert", "tube.obj", "out.pstrip", *limit)
         self.assertIn("the time limit of 0.05 s cut", run.err)
-        self.assertEqual(self.likeness("tube.obj", "out.pstrip"), "reordered")
+        self.assertEqual(self.equivalence("tube.obj", "out.pstrip"), "reordered")
         text = self.run_program("stripify", "tube.obj", "--time-limit", "600")
         self.assertNotIn("time limit", text.err)
 
     def test_output_is_the_model_in_strip_order(self):
         self.write_tube()
         for target in ("out.obj", "out.gltf", "out.glb"):
-            self.run_program("stripify", "tube.obj", target)
-            self.assertEqual(self.likeness("tube.obj", target), "reordered", target)
-        run = self.run_program("stripify", "tube.obj", "-", "--to", "glb")
+            self.run_program("stripify", "tube.obj", "-o", target)
+            self.assertEqual(self.equivalence("tube.obj", target), "reordered", target)
+        run = self.run_program("stripify", "tube.obj", "-o", "-", "--to", "glb")
         self.assertTrue(run.out.startswith(b"glTF"))
         self.assertIn("indices sent", run.err)
 

@@ -20,6 +20,30 @@ MESH_FORMATS = ("ply", "obj", "gltf", "glb")
 STRIP_FORMATS = ("pstrip", "pstripx", "pm")
 FORMATS = MESH_FORMATS + STRIP_FORMATS
 
+# A MEDIT file of six tetrahedra.
+CUBE = """MeshVersionFormatted 2
+Dimension 3
+Vertices
+8
+0 0 0 1
+1 0 0 1
+0 1 0 1
+1 1 0 1
+0 0 1 1
+1 0 1 1
+0 1 1 1
+1 1 1 1
+Tetrahedra
+6
+1 2 4 8 0
+1 4 3 8 0
+1 3 7 8 0
+1 7 5 8 0
+1 5 6 8 0
+1 6 2 8 0
+End
+"""
+
 
 class Run:
     """A finished run: exit code, standard output (bytes) and standard error (text)."""
@@ -61,7 +85,7 @@ class ProgramTest(unittest.TestCase):
         self.write("tube.obj", tube(rings, around))
         self.write("tube.mtl", "newmtl clay\nKd 0.8 0.4 0.2\nnewmtl glaze\nKd 0.1 0.2 0.9\n")
 
-    def likeness(self, a, b):
+    def equivalence(self, a, b):
         """What compare says of two models: the first word."""
         return Run(("compare", a, b), self.folder).out.split(b":")[0].strip().decode()
 

@@ -46,14 +46,14 @@ Mesh shuffled(const Mesh& mesh, std::uint32_t seed) {
 
 TEST(Compare, AMeshWithItselfIsExact) {
   for (const Mesh& mesh : {test::grid(4), test::cube(true), test::random_soup(1, 10, 30)})
-    EXPECT_EQ(compare(test::model_of(mesh), test::model_of(mesh)).likeness, Likeness::exact);
+    EXPECT_EQ(compare(test::model_of(mesh), test::model_of(mesh)).equivalence, Equivalence::exact);
 }
 
 TEST(Compare, AShuffledMeshIsReordered) {
   for (const std::uint32_t seed : {1u, 2u, 3u})
     for (const Mesh& mesh : {test::grid(4), test::cube(true), test::torus(5, 4)}) {
       const Comparison c = compare(test::model_of(mesh), test::model_of(shuffled(mesh, seed)));
-      EXPECT_EQ(c.likeness, Likeness::reordered);
+      EXPECT_EQ(c.equivalence, Equivalence::reordered);
       EXPECT_TRUE(c.differences.empty());
     }
 }
@@ -62,7 +62,7 @@ TEST(Compare, AFlippedTriangleIsADifference) {
   Mesh flipped = test::grid(4);
   std::swap(flipped.corners[0], flipped.corners[1]);
   const Comparison c = compare(test::model_of(test::grid(4)), test::model_of(flipped));
-  EXPECT_EQ(c.likeness, Likeness::different);
+  EXPECT_EQ(c.equivalence, Equivalence::different);
   EXPECT_EQ(c.differences, std::vector<std::string>{"faces"});
   EXPECT_LT(c.hausdorff, 1e-12);
 }
@@ -72,7 +72,7 @@ TEST(Compare, AMovedVertexIsMeasured) {
   const float x = -1;
   std::memcpy(moved.position.data.data(), &x, sizeof x);  // a corner, one edge length outwards
   const Comparison c = compare(test::model_of(test::cube(false)), test::model_of(moved));
-  EXPECT_EQ(c.likeness, Likeness::different);
+  EXPECT_EQ(c.equivalence, Equivalence::different);
   EXPECT_NEAR(c.hausdorff, 1 / std::sqrt(6.0), 0.01);  // the larger box is 2 x 1 x 1
   EXPECT_GT(c.rms, 0);
   EXPECT_LT(c.rms, c.hausdorff);
@@ -82,7 +82,7 @@ TEST(Compare, OneBitOfAnAttributeIsADifference) {
   Mesh changed = test::cube(true);
   changed.wedge_attributes[1].data[3] ^= std::byte{1};
   const Comparison c = compare(test::model_of(test::cube(true)), test::model_of(changed));
-  EXPECT_EQ(c.likeness, Likeness::different);
+  EXPECT_EQ(c.equivalence, Equivalence::different);
   ASSERT_EQ(c.attributes.size(), 1u);
   EXPECT_EQ(c.attributes[0].semantic, "TEXCOORD_0");
 }
@@ -101,15 +101,15 @@ TEST(Compare, ComponentTypesDoNotMatter) {
   doubles.position.type = ComponentType::f64;
   const ByteView bytes = std::as_bytes(std::span(p));
   doubles.position.data.assign(bytes.begin(), bytes.end());
-  EXPECT_EQ(compare(test::model_of(test::grid(3)), test::model_of(doubles)).likeness,
-            Likeness::exact);
+  EXPECT_EQ(compare(test::model_of(test::grid(3)), test::model_of(doubles)).equivalence,
+            Equivalence::exact);
 }
 
 TEST(Compare, NothingIsInfinitelyFarFromSomething) {
   const Comparison c = compare({}, test::model_of(test::cube(false)));
-  EXPECT_EQ(c.likeness, Likeness::different);
+  EXPECT_EQ(c.equivalence, Equivalence::different);
   EXPECT_TRUE(std::isinf(c.hausdorff));
-  EXPECT_EQ(compare({}, {}).likeness, Likeness::exact);
+  EXPECT_EQ(compare({}, {}).equivalence, Equivalence::exact);
 }
 
 }  // namespace

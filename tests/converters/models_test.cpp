@@ -70,7 +70,7 @@ std::string save_again(const LoadedFile& file, const Model& model, const fs::pat
   if (!again) return "load what was saved: " + again.error().message + " " + again.error().path;
   const Model back = std::move(*again).model().value();
   const Comparison c = compare(model, back, 1000);
-  if (c.likeness != Likeness::different) return {};
+  if (c.equivalence != Equivalence::different) return {};
   return "saved model is different: " + (c.differences.empty() ? std::string() : c.differences[0]);
 }
 

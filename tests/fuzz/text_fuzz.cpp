@@ -15,8 +15,8 @@ using namespace pstrips;
 
 namespace {
 
-bool is_like(const Model& a, const Model& b, Likeness at_worst) {
-  return compare(a, b, 100).likeness <= at_worst;
+bool is_like(const Model& a, const Model& b, Equivalence at_worst) {
+  return compare(a, b, 100).equivalence <= at_worst;
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FUZZ_CHECK(check(*strips));
   const auto decoded = decode(*strips);
   FUZZ_CHECK(decoded);
-  FUZZ_CHECK(is_like(model, *decoded, Likeness::exact));
+  FUZZ_CHECK(is_like(model, *decoded, Equivalence::exact));
 
   const auto written = write_text(*strips, fuzz::kLimits);
   if (!written) {
@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   FUZZ_CHECK(again->collapses.size() == strips->meshes[0].vsplits.size());
   Model read;
   read.meshes = {again->mesh};
-  if (written->dropped.empty()) FUZZ_CHECK(is_like(model, read, Likeness::reordered));
+  if (written->dropped.empty()) FUZZ_CHECK(is_like(model, read, Equivalence::reordered));
   return 0;
 }
 

@@ -30,7 +30,7 @@ std::string round_trip(const Model& model, const EncodeOptions& options, bool xm
   if (back.scene != model.scene) return "the scene changed";
   if (options.keep_order) return back.meshes == model.meshes ? "" : "not exact with --keep-order";
   const Comparison c = compare(model, back, 1000);
-  if (c.likeness == Likeness::different)
+  if (c.equivalence == Equivalence::different)
     return "different: " + (c.differences.empty() ? std::string() : c.differences[0]);
   return {};
 }

@@ -1,10 +1,9 @@
-#include "cli/strip_figures.h"
+#include "cli/strip_metrics.h"
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
 
-#include "cli/heap.h"
 #include "codecs/stripify/check.h"
 #include "codecs/stripify/delaunay.h"
 #include "converters/strip_mesh.h"
@@ -75,10 +74,10 @@ std::string find_point_fault(std::span<const double> positions, const Strips& st
 
 class Stopwatch {
  public:
-  void add_to(StripFigures& figures) const {
+  void add_to(StripMetrics& metrics) const {
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - wall_;
-    figures.milliseconds += time.count();
-    figures.cpu_milliseconds += 1e3 * static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
+    metrics.milliseconds += time.count();
+    metrics.cpu_milliseconds += 1e3 * static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
   }
 
  private:
@@ -100,37 +99,36 @@ void add(StripStats& sum, const StripStats& stats) {
 
 }  // namespace
 
-StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
-                            const StripOptions& options, bool in_strip_order) {
-  StripFigures out;
+StripMetrics measure_strips(Model& model, const NamedStripifier& stripifier,
+                            const StripOptions& options, bool in_strip_order,
+                            const HeapMeter& heap) {
+  StripMetrics out;
   for (Mesh& mesh : model.meshes) {
-    const HeapPeak heap;
+    if (heap) heap.start();
     const Stopwatch stopwatch;
     const StripMap map = strip_faces(mesh, stripifier, options);
     stopwatch.add_to(out);
-    out.peak_bytes = std::max(out.peak_bytes, heap.bytes());
+    if (heap) out.peak_bytes = std::max(out.peak_bytes, heap.peak());
     add(out.stats, strip_stats(map.entries));
     // With diagonals of its own the strips have other triangles than the triangulation.
     const bool free_diagonals = stripifier.run_polygons && !mesh.face_first.empty();
-    if (out.remark.empty())
-      out.remark = free_diagonals ? find_polygon_fault(mesh, map) : find_fault(mesh, map);
+    if (out.fault.empty())
+      out.fault = free_diagonals ? find_polygon_fault(mesh, map) : find_fault(mesh, map);
     if (in_strip_order) mesh = in_order(mesh, map);
   }
   return out;
 }
 
-StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
+StripMetrics measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
                                   const StripOptions& options, bool in_strip_order) {
-  StripFigures out;
+  StripMetrics out;
   for (Mesh& mesh : model.meshes) {
     const std::vector<double> positions = wedge_positions(mesh);
-    const HeapPeak heap;
     const Stopwatch stopwatch;
     StripMap map{.entries = stripifier.run(positions, options), .group_entries = {}};
     stopwatch.add_to(out);
-    out.peak_bytes = std::max(out.peak_bytes, heap.bytes());
     add(out.stats, strip_stats(map.entries));
-    if (out.remark.empty()) out.remark = find_point_fault(positions, map.entries, options);
+    if (out.fault.empty()) out.fault = find_point_fault(positions, map.entries, options);
     if (!in_strip_order) continue;
     map.group_entries.assign(1, static_cast<Index>(map.entries.size()));
     mesh.groups.assign(1, {});

@@ -2,9 +2,9 @@
 #include <OpenMesh/Tools/Utils/StripifierT.hh>
 
 #include "core/strips.h"
-#include "peers/adapters.h"
+#include "tests/bench/peers/adapters.h"
 
-namespace pstrips {
+namespace pstrips::bench {
 
 Strips openmesh_strips(const StripInput& input, const StripOptions&) {
   using HalfEdgeMesh = OpenMesh::TriMesh_ArrayKernelT<>;
@@ -27,4 +27,4 @@ Strips openmesh_strips(const StripInput& input, const StripOptions&) {
   return strips;
 }
 
-}  // namespace pstrips
+}  // namespace pstrips::bench

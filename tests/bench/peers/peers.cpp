@@ -1,8 +1,8 @@
-#include "peers/peers.h"
+#include "tests/bench/peers/peers.h"
 
-#include "peers/adapters.h"
+#include "tests/bench/peers/adapters.h"
 
-namespace pstrips {
+namespace pstrips::bench {
 namespace {
 
 constexpr NamedStripifier kPeers[] = {
@@ -26,4 +26,4 @@ std::span<const NamedStripifier> peer_stripifiers() {
   return std::span(kPeers).first(std::size(kPeers) - 1);
 }
 
-}  // namespace pstrips
+}  // namespace pstrips::bench

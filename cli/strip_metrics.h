@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 
 #include "codecs/stripify/stats.h"
@@ -9,13 +11,22 @@
 
 namespace pstrips::cli {
 
+/// How the heap is measured, for a program that counts what operator new hands out. Empty: not at
+/// all.
+struct HeapMeter {
+  std::function<void()> start;
+  std::function<std::size_t()> peak;  ///< bytes, the largest since start()
+  explicit operator bool() const { return start && peak; }
+};
+
 /// What a stripifier made of a model, all meshes together.
-struct StripFigures {
+struct StripMetrics {
   StripStats stats;
   double milliseconds = 0;
   double cpu_milliseconds = 0;  ///< processor time: what else the machine does counts little
-  std::size_t peak_bytes = 0;   ///< largest heap of any one mesh's run, its result included
-  std::string remark;           ///< what the strips miss of a stripification; empty: nothing
+  std::size_t peak_bytes =
+      0;  ///< largest heap of any one mesh's run, its result included; 0 without a meter
+  std::string fault;  ///< what the strips miss of a stripification; empty: nothing
 
   double indices_per_triangle() const {
     return stats.triangles == 0
@@ -27,13 +38,14 @@ struct StripFigures {
 /// Runs a stripifier on every mesh of a model and checks what it gives. With `in_strip_order`,
 /// the meshes come out with their triangles in strip order, so that a strip-aware writer finds
 /// them again.
-StripFigures measure_strips(Model& model, const NamedStripifier& stripifier,
-                            const StripOptions& options, bool in_strip_order);
+StripMetrics measure_strips(Model& model, const NamedStripifier& stripifier,
+                            const StripOptions& options, bool in_strip_order,
+                            const HeapMeter& heap = {});
 
 /// The same for a stripifier of points: those of each mesh, whatever faces it has. With
 /// `in_strip_order` the triangles take the place of the faces.
 /// Precondition: no mesh has more than kMaxDelaunayPoints wedges.
-StripFigures measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
+StripMetrics measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
                                   const StripOptions& options, bool in_strip_order);
 
 }  // namespace pstrips::cli

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "core/strips.h"
-#include "peers/adapters.h"
+#include "tests/bench/peers/adapters.h"
 
-namespace pstrips {
+namespace pstrips::bench {
 
 Strips vtk_strips(const StripInput& input, const StripOptions&) {
   vtkNew<vtkPoints> points;
@@ -43,4 +43,4 @@ Strips vtk_strips(const StripInput& input, const StripOptions&) {
   return strips;
 }
 
-}  // namespace pstrips
+}  // namespace pstrips::bench

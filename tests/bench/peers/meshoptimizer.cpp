@@ -1,9 +1,9 @@
 #include <meshoptimizer.h>
 
 #include "core/strips.h"
-#include "peers/adapters.h"
+#include "tests/bench/peers/adapters.h"
 
-namespace pstrips {
+namespace pstrips::bench {
 
 Strips meshoptimizer_strips(const StripInput& input, const StripOptions&) {
   std::vector<Index> ordered(input.triangles.size());
@@ -15,4 +15,4 @@ Strips meshoptimizer_strips(const StripInput& input, const StripOptions&) {
   return strips;
 }
 
-}  // namespace pstrips
+}  // namespace pstrips::bench

@@ -4,7 +4,7 @@
 
 #include "codecs/stripify/stripify.h"
 
-namespace pstrips {
+namespace pstrips::bench {
 
 /// Other libraries' stripifiers behind our interface, those that were found when this was built;
 /// only for comparison. They promise less than ours: OpenMesh leaves out the triangles that make
@@ -12,4 +12,4 @@ namespace pstrips {
 /// of the structure they need, as ours holds the dual graph. Options are not looked at.
 std::span<const NamedStripifier> peer_stripifiers();
 
-}  // namespace pstrips
+}  // namespace pstrips::bench

@@ -1,4 +1,4 @@
-#include "cli/heap.h"
+#include "tests/bench/heap.h"
 
 #include <malloc.h>
 
@@ -18,8 +18,8 @@ void* count(void* block) {
   if (!block) throw std::bad_alloc();
   const std::size_t size = ::malloc_usable_size(block);
   const std::size_t now = allocated.fetch_add(size, std::memory_order_relaxed) + size;
-  std::size_t before = peak.load(std::memory_order_relaxed);
-  while (now > before && !peak.compare_exchange_weak(before, now, std::memory_order_relaxed)) {
+  std::size_t largest = peak.load(std::memory_order_relaxed);
+  while (now > largest && !peak.compare_exchange_weak(largest, now, std::memory_order_relaxed)) {
   }
   return block;
 }
@@ -41,7 +41,8 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return ::operator new(size, alignment);
 }
-// The library's own, as std::stable_sort asks it, may count elsewhere than the operators above.
+// The standard library's own nothrow forms, which std::stable_sort calls, may count elsewhere than
+// the operators above.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   try {
     return ::operator new(size);
@@ -80,10 +81,15 @@ void operator delete[](void* block, std::align_val_t, const std::nothrow_t&) noe
   release(block);
 }
 
-namespace pstrips::cli {
+namespace pstrips::bench {
+namespace {
 
-HeapPeak::HeapPeak() : start_(allocated.load()) { peak = start_; }
+std::size_t before = 0;
 
-std::size_t HeapPeak::bytes() const { return peak.load() - start_; }
+}  // namespace
 
-}  // namespace pstrips::cli
+void start_heap_peak() { peak = before = allocated.load(); }
+
+std::size_t heap_peak() { return peak.load() - before; }
+
+}  // namespace pstrips::bench

@@ -1,0 +1,96 @@
+#include "cli/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+namespace pstrips::cli {
+namespace {
+
+// Length of the UTF-8 sequence at the front of text, 0 when it is broken or a control character.
+std::size_t printable_sequence(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (byte(0) < 0x20 || byte(0) == 0x7f) return 0;
+  if (byte(0) < 0x80) return 1;
+  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  if (byte(0) == 0xc2 && byte(1) < 0xa0) return 0;  // C1 controls, which terminals obey
+  // Overlong forms, surrogates and what lies beyond U+10FFFF; JSON takes none of them.
+  if (byte(0) == 0xe0 && byte(1) < 0xa0) return 0;
+  if (byte(0) == 0xed && byte(1) > 0x9f) return 0;
+  if (byte(0) == 0xf0 && byte(1) < 0x90) return 0;
+  if (byte(0) == 0xf4 && byte(1) > 0x8f) return 0;
+  return length;
+}
+
+ExitCode exit_code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::bad_argument:
+      return kBadCommandLine;
+    case ErrorCode::io:
+      return kInputOutput;
+    case ErrorCode::truncated:
+    case ErrorCode::corrupt:
+    case ErrorCode::over_limit:
+      return kInvalidFile;
+    case ErrorCode::unsupported:
+      return kUnsupported;
+    case ErrorCode::interrupted:
+      return kRuntime;
+  }
+  return kRuntime;
+}
+
+std::string_view kind_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::truncated:
+      return "truncated: ";
+    case ErrorCode::corrupt:
+      return "corrupt: ";
+    case ErrorCode::over_limit:
+      return "over the limit: ";
+    case ErrorCode::unsupported:
+      return "unsupported: ";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = printable_sequence(text);
+    if (length == 0)
+      out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
+    else
+      out += text.substr(0, length);
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out;
+}
+
+ExitCode report(const Streams& io, const Error& error, std::string_view file) {
+  std::string where;
+  if (error.offset != kNoOffset) where = fmt::format("byte {}", error.offset);
+  if (!error.path.empty() && error.path != file)
+    where += (where.empty() ? "" : ", ") + escaped(error.path);
+  io.err << "pstrips: ";
+  if (!file.empty()) io.err << escaped(file) << ": ";
+  io.err << kind_of(error.code) << escaped(error.message);
+  if (!where.empty()) io.err << " (at " << where << ")";
+  io.err << "\n";
+  return exit_code(error.code);
+}
+
+void note(const Streams& io, std::string_view file, const std::vector<std::string>& notes) {
+  if (io.quiet) return;
+  for (const std::string& text : notes)
+    io.err << "pstrips: " << escaped(file) << ": left out: " << escaped(text) << "\n";
+}
+
+}  // namespace pstrips::cli
