@@ -11,27 +11,6 @@
 namespace pstrips::cli {
 namespace {
 
-Mesh in_order(const Mesh& mesh, const StripMap& map) {
-  Mesh out = mesh;
-  out.corners.clear();
-  out.face_first.clear();
-  out.face_group.clear();
-  out.face_attributes.clear();
-  std::size_t first = 0;
-  for (Index g = 0; g < map.group_entries.size(); ++g) {
-    for_each_triangle(
-        std::span(map.entries).subspan(first, map.group_entries[g]),
-        [&](Index w) { return mesh.vertex_of(w); },
-        [&](Index a, Index b, Index c) {
-          out.corners.insert(out.corners.end(), {a, b, c});
-          out.face_group.push_back(g);
-        });
-    first += map.group_entries[g];
-  }
-  canonicalize(out);
-  return out;
-}
-
 std::string find_fault(const Mesh& mesh, const StripMap& map) {
   const Triangulation triangles = triangulate(mesh);
   std::vector<Index> group;
@@ -99,14 +78,14 @@ void add(StripStats& sum, const StripStats& stats) {
 
 }  // namespace
 
-StripMetrics measure_strips(Model& model, const NamedStripifier& stripifier,
-                            const StripOptions& options, bool in_strip_order,
-                            const HeapMeter& heap) {
+StripMetrics measure_strips(const Model& model, const NamedStripifier& stripifier,
+                            const StripOptions& options, const HeapMeter& heap,
+                            std::vector<StripMap>* maps) {
   StripMetrics out;
-  for (Mesh& mesh : model.meshes) {
+  for (const Mesh& mesh : model.meshes) {
     if (heap) heap.start();
     const Stopwatch stopwatch;
-    const StripMap map = strip_faces(mesh, stripifier, options);
+    StripMap map = strip_faces(mesh, stripifier, options);
     stopwatch.add_to(out);
     if (heap) out.peak_bytes = std::max(out.peak_bytes, heap.peak());
     add(out.stats, strip_stats(map.entries));
@@ -114,25 +93,23 @@ StripMetrics measure_strips(Model& model, const NamedStripifier& stripifier,
     const bool free_diagonals = stripifier.run_polygons && !mesh.face_first.empty();
     if (out.fault.empty())
       out.fault = free_diagonals ? find_polygon_fault(mesh, map) : find_fault(mesh, map);
-    if (in_strip_order) mesh = in_order(mesh, map);
+    if (maps) maps->push_back(std::move(map));
   }
   return out;
 }
 
-StripMetrics measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
-                                  const StripOptions& options, bool in_strip_order) {
+StripMetrics measure_point_strips(const Model& model, const NamedPointStripifier& stripifier,
+                                  const StripOptions& options, std::vector<StripMap>* maps) {
   StripMetrics out;
-  for (Mesh& mesh : model.meshes) {
+  for (const Mesh& mesh : model.meshes) {
     const std::vector<double> positions = wedge_positions(mesh);
     const Stopwatch stopwatch;
     StripMap map{.entries = stripifier.run(positions, options), .group_entries = {}};
     stopwatch.add_to(out);
     add(out.stats, strip_stats(map.entries));
     if (out.fault.empty()) out.fault = find_point_fault(positions, map.entries, options);
-    if (!in_strip_order) continue;
     map.group_entries.assign(1, static_cast<Index>(map.entries.size()));
-    mesh.groups.assign(1, {});
-    mesh = in_order(mesh, map);
+    if (maps) maps->push_back(std::move(map));
   }
   return out;
 }

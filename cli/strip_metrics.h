@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "codecs/stripify/stats.h"
 #include "codecs/stripify/stripify.h"
+#include "codecs/vsplit/record.h"
 #include "core/mesh.h"
 #include "core/scene.h"
 
@@ -35,17 +37,17 @@ struct StripMetrics {
   }
 };
 
-/// Runs a stripifier on every mesh of a model and checks what it gives. With `in_strip_order`,
-/// the meshes come out with their triangles in strip order, so that a strip-aware writer finds
-/// them again.
-StripMetrics measure_strips(Model& model, const NamedStripifier& stripifier,
-                            const StripOptions& options, bool in_strip_order,
-                            const HeapMeter& heap = {});
+/// Runs a stripifier on every mesh of a model and checks what it gives.
+///
+/// maps  receives the strips of each mesh when given
+StripMetrics measure_strips(const Model& model, const NamedStripifier& stripifier,
+                            const StripOptions& options, const HeapMeter& heap = {},
+                            std::vector<StripMap>* maps = nullptr);
 
-/// The same for a stripifier of points: those of each mesh, whatever faces it has. With
-/// `in_strip_order` the triangles take the place of the faces.
+/// The same for a stripifier of points: those of each mesh, whatever faces it has.
 /// Precondition: no mesh has more than kMaxDelaunayPoints wedges.
-StripMetrics measure_point_strips(Model& model, const NamedPointStripifier& stripifier,
-                                  const StripOptions& options, bool in_strip_order);
+StripMetrics measure_point_strips(const Model& model, const NamedPointStripifier& stripifier,
+                                  const StripOptions& options,
+                                  std::vector<StripMap>* maps = nullptr);
 
 }  // namespace pstrips::cli

@@ -95,18 +95,18 @@ std::vector<Run> runs_of(const ComparisonOptions& options) {
   return runs;
 }
 
-Row measure_once(Model& model, const Run& run, const ComparisonOptions& options) {
+Row measure_once(const Model& model, const Run& run, const ComparisonOptions& options) {
   const auto was_cut = std::make_shared<std::atomic<bool>>(false);
   StripOptions strip_options = run.options;
   strip_options.stop = stop_after(options.time_limit, was_cut);
   Row out{.algorithm = std::string(run.algorithm->name), .variant = run.variant, .metrics = {}};
-  out.metrics = measure_strips(model, *run.algorithm, strip_options, false, options.heap);
+  out.metrics = measure_strips(model, *run.algorithm, strip_options, options.heap);
   out.was_cut = *was_cut;
   return out;
 }
 
 // Short runs are repeated: the first one pays for cold caches.
-Row measure(Model& model, const Run& run, const ComparisonOptions& options) {
+Row measure(const Model& model, const Run& run, const ComparisonOptions& options) {
   constexpr double kEnoughMilliseconds = 200;
   constexpr int kMaxRuns = 5;
   Row best = measure_once(model, run, options);

@@ -13,6 +13,7 @@
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "cli/strip_metrics.h"
+#include "cli/strip_model.h"
 #include "cli/stripifier_table.h"
 #include "cli/stripify_tetra.h"
 #include "cli/table.h"
@@ -26,6 +27,7 @@ struct Options {
   std::vector<std::string> inputs;  // several to compare
   std::string algorithm;            // to compare: a list; empty: best, or all
   bool compare = false;
+  bool join = false, color = false;
   OutputOption output;
   StripOptionsGroup stripping;
   FormatOption format;
@@ -111,6 +113,9 @@ Result<void> check_command_line(const Options& options) {
                                   : Result<void>();
   if (options.inputs.size() > 1)
     return refuse("several models are for --compare; the output is named by -o");
+  if (options.color && !options.output.given())
+    return refuse("--color-strips does nothing without -o");
+  if (options.join && !options.output.given()) return refuse("--join does nothing without -o");
   if (options.format.csv() || options.format.md()) return refuse("csv and md are for --compare");
   if (!options.algorithm.empty() && !Algorithm(options.algorithm).is_any())
     return refuse("--algorithm takes one of those that --help lists, or several with --compare");
@@ -118,12 +123,30 @@ Result<void> check_command_line(const Options& options) {
 }
 
 // The format of the strips of a mesh, where they are written.
-Result<FileFormat> mesh_format(const OutputOption& output) {
-  const auto format = output.format();
-  if (format && is_progressive(*format))
+Result<FileFormat> mesh_format(const Options& options) {
+  const auto format = options.output.format();
+  if (!format) return format;
+  if (is_progressive(*format))
     return fail(ErrorCode::bad_argument, "use convert for progressive formats", kNoOffset,
-                output.path);
+                options.output.path);
+  if (options.join && !holds(*format, Feature::separate_strips))
+    return fail(ErrorCode::bad_argument,
+                fmt::format("--join does nothing for a {} file", name_of(*format)));
   return format;
+}
+
+// A primitive a strip, or a primitive a group whose strips are joined, in a format that has strips.
+Result<SavedFiles> save_strips(Model model, const std::vector<StripMap>& maps, bool of_points,
+                               FileFormat target, const Options& options) {
+  const bool separate = holds(target, Feature::separate_strips) && !options.join;
+  put_strips(model, maps, target,
+             {.of_points = of_points, .a_group_each = separate, .colored = options.color});
+  return save(model, options.output.path, target,
+              {.strips = !options.join,
+               .joined_strips = options.join,
+               .strip_swaps = true,
+               .threads = options.limits.limits.threads,
+               .replace_companions = options.output.force});
 }
 
 Result<void> check_size(const Model& model, bool takes_points, const Limits& limits) {
@@ -146,20 +169,20 @@ ExitCode stripify_model(Model model, const Options& options, const StripOptions&
   if (const auto fits = check_size(model, takes_points, options.limits.limits); !fits)
     return refuse_input(options, fits.error(), io);
   const OutputOption& output = options.output;
-  const auto target = output.given() ? mesh_format(output) : FileFormat::ply;
+  const auto target = output.given() ? mesh_format(options) : FileFormat::ply;
   if (!target) return report(io, target.error());
 
   ProgressBar bar(io);
   bar.show(name, 0);
+  std::vector<StripMap> maps;
   const StripMetrics metrics =
-      takes_points ? measure_point_strips(model, *algorithm.points, strip_options, output.given())
-                   : measure_strips(model, *algorithm.triangles, strip_options, output.given());
+      takes_points ? measure_point_strips(model, *algorithm.points, strip_options, &maps)
+                   : measure_strips(model, *algorithm.triangles, strip_options, {}, &maps);
   bar.clear();
   if (!metrics.fault.empty()) return report(io, {ErrorCode::corrupt, name + " " + metrics.fault});
   options.stripping.note_time_limit(io);
   if (output.given()) {
-    const auto saved =
-        save(model, output.path, *target, {.strips = true, .replace_companions = output.force});
+    const auto saved = save_strips(std::move(model), maps, takes_points, *target, options);
     if (!saved) return report_unsaved(io, saved.error(), output);
     note(io, output.path, saved->notes);
     list_written(io, saved->files);
@@ -236,6 +259,12 @@ Command add_stripify(CLI::App& root) {
                                "File for the triangles in strip order, which glTF holds as strips; "
                                "of tetrahedra, for the strips as text");
   app->add_flag("--compare", options->compare, "A table of all algorithms");
+  app->add_flag(
+      "--join", options->join,
+      "glTF output: one primitive a group, its strips joined by repeated indices, instead "
+      "of one a strip");
+  app->add_flag("--color-strips,--colours", options->color,
+                "Tell the strips of the output apart by colour");
   app->add_option("--algorithm,--stripifier", options->algorithm,
                   "One of " + names +
                       "; points: best, delaunay; tetrahedra: best, which is tetra-multi-path "

@@ -55,6 +55,7 @@ struct SaveOptions {
   bool ascii = false;          ///< PLY: text instead of little-endian binary
   bool strips = false;         ///< glTF: one primitive a strip instead of triangle lists
   bool joined_strips = false;  ///< glTF: one strip a group, its parts joined by repeated indices
+  bool strip_swaps = false;    ///< glTF strips: they may turn by a repeated index
   unsigned threads = 0;        ///< see thread_count(); the bytes are the same
   /// Whether files beside the output, which the caller did not name, may be replaced by others.
   bool replace_companions = true;

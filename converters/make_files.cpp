@@ -61,6 +61,7 @@ Result<FileSet> make_any_gltf(const Model& model, const OutputName& name, bool b
                               const SaveOptions& options) {
   auto written = write_gltf(model, {.binary = binary,
                                     .topology = topology_of(options),
+                                    .swaps = options.strip_swaps,
                                     .embed = name.path == "-",
                                     .buffer_name = name.companion});
   if (!written) return tl::unexpected(written.error());

@@ -52,6 +52,8 @@ struct GltfWriteOptions {
   /// Strips continue as far as the next triangle in face order shares the edge that a strip needs;
   /// a mesh whose faces stand in strip order keeps its strips.
   GltfTopology topology = GltfTopology::triangles;
+  /// A strip may turn by a repeated index where a triangle stands on the last one's other edge.
+  bool swaps = false;
   bool embed = false;                      ///< .gltf only: the buffer as a data URI
   std::string buffer_name = "buffer.bin";  ///< .gltf only: file name of the buffer
 };

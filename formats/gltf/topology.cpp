@@ -13,13 +13,16 @@ using Triangle = std::array<Index, 3>;
 /// Joins triangles that follow each other as a strip's do. [gltf.h, GltfTopology]
 class StripBuilder {
  public:
+  explicit StripBuilder(bool swaps) : swaps_(swaps) {}
   void add(const Triangle& t) {
     if (strip_.empty()) {
       first_ = t;
       strip_ = {t[0], t[1], t[2]};
       return;
     }
-    if (!extend(t) && !(strip_.size() == 3 && turn_first(t) && extend(t))) {
+    const bool joins = extend(t) || (strip_.size() == 3 && turn_first(t) && extend(t)) ||
+                       (swaps_ && strip_.size() > 3 && swap_and_extend(t));
+    if (!joins) {
       end_strip();
       add(t);
     }
@@ -51,11 +54,19 @@ class StripBuilder {
         }
     return false;
   }
+  /// Repeats the third last index before the last one: no triangle more, but another last edge.
+  bool swap_and_extend(const Triangle& t) {
+    strip_.insert(strip_.end() - 1, strip_[strip_.size() - 3]);
+    if (extend(t)) return true;
+    strip_.erase(strip_.end() - 2);
+    return false;
+  }
   void end_strip() {
     if (!strip_.empty()) strips_.push_back(std::move(strip_));
     strip_ = {};
   }
 
+  bool swaps_;
   Triangle first_{};
   std::vector<Index> strip_;
   std::vector<std::vector<Index>> strips_;
@@ -77,7 +88,8 @@ std::vector<Index> join(const std::vector<std::vector<Index>>& strips) {
 
 class GroupWriter {
  public:
-  GroupWriter(const Mesh& mesh, GltfTopology topology) : mesh_(mesh), topology_(topology) {}
+  GroupWriter(const Mesh& mesh, const GltfWriteOptions& options)
+      : mesh_(mesh), topology_(options.topology), swaps_(options.swaps) {}
 
   std::vector<IndexList> write(std::span<const Index> faces, FaceKind kind) {
     if (faces.empty()) return {};
@@ -113,7 +125,7 @@ class GroupWriter {
     return non_empty(std::move(out));
   }
   std::vector<IndexList> strips(std::span<const Index> faces) {
-    StripBuilder builder;
+    StripBuilder builder(swaps_);
     each_triangle(faces, [&](const Triangle& t) {
       if (t[0] == t[1] || t[1] == t[2] || t[0] == t[2])
         ++degenerate_;
@@ -158,16 +170,17 @@ class GroupWriter {
 
   const Mesh& mesh_;
   GltfTopology topology_;
+  bool swaps_;
   std::uint64_t small_ = 0, degenerate_ = 0, cut_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology topology,
+std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, const GltfWriteOptions& options,
                                                 std::vector<std::string>& dropped) {
   const Grouped<Index> faces_by_group =
       group_by(mesh.groups.size(), mesh.face_count(), [&](Index f) { return mesh.group_of(f); });
-  GroupWriter writer(mesh, topology);
+  GroupWriter writer(mesh, options);
   std::vector<std::vector<IndexList>> out;
   for (std::size_t g = 0; g < mesh.groups.size(); ++g)
     out.push_back(writer.write(faces_by_group[g], mesh.groups[g].kind));

@@ -20,7 +20,7 @@ struct IndexList {
 /// dropped  receives what is lost: faces of fewer than three corners among polygons, degenerate
 ///          triangles in strips, polylines cut into segments
 /// cost     O(corners)
-std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, GltfTopology topology,
+std::vector<std::vector<IndexList>> index_lists(const Mesh& mesh, const GltfWriteOptions& options,
                                                 std::vector<std::string>& dropped);
 
 }  // namespace pstrips::inline formats::gltf

@@ -134,7 +134,7 @@ class AssetWriter {
     std::vector<std::vector<std::vector<IndexList>>> lists;
     for (std::size_t m = 0; m < model_.meshes.size(); ++m) {
       attributes.push_back(attributes_of(m));
-      lists.push_back(index_lists(model_.meshes[m], options_.topology, dropped_));
+      lists.push_back(index_lists(model_.meshes[m], options_, dropped_));
       note_face_data(model_.meshes[m]);
     }
     for (std::size_t i = 0; i < kept_->map.meshes.size(); ++i) {
@@ -169,7 +169,7 @@ class AssetWriter {
     }
     const json attributes = attributes_of(m);
     json primitives = json::array();
-    const auto lists = index_lists(mesh, options_.topology, dropped_);
+    const auto lists = index_lists(mesh, options_, dropped_);
     for (std::size_t g = 0; g < lists.size(); ++g)
       for (const IndexList& list : lists[g])
         primitives.push_back(make_primitive(attributes, list, mesh.groups[g]));

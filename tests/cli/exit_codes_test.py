@@ -59,6 +59,9 @@ CASES = [
      "--attributes: no mesh has an attribute COLOR_0; there are NORMAL, POSITION, TEXCOORD_0"),
     (["convert", "tube.obj", "out.pstrip", "--attribute-weight", "COLOR_0=1"], 1, "",
      "--attribute-weight: no mesh has an attribute COLOR_0; there are NORMAL, POSITION, TEXCOORD_0"),
+    (["stripify", "tube.obj", "--join"], 1, "", "--join does nothing without -o"),
+    (["stripify", "tube.obj", "-o", "out.obj", "--join"], 1, "", "--join does nothing for a obj file"),
+    (["stripify", "tube.obj", "--color-strips"], 1, "", "--color-strips does nothing without -o"),
     # Numbers.
     (["compare", "tube.obj", "tube.obj", "--samples", "1k"], 0, "exact", ""),
     (["compare", "tube.obj", "tube.obj", "--samples", "1G"], 1, "", "1G is not a whole number from 1 to 100,000,000"),

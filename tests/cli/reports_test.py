@@ -2,6 +2,7 @@
 
 import csv
 import io
+import json
 import random
 import struct
 import unittest
@@ -72,6 +73,27 @@ class Reports(ProgramTest):
             self.assertEqual(reports["inspect"][1]["triangles"], 352)
             self.assertEqual(reports["stripify"][1]["triangles"], 352)
             self.assertFalse(reports["validate"][1]["valid"])
+
+    def test_csv_of_a_model(self):
+        run = self.run_program("inspect", "tube.obj", "--format", "csv")
+        (row,) = csv.DictReader(io.StringIO(run.out.decode()))
+        self.assertEqual((row["file"], row["format"], row["triangles"]), ("tube.obj", "obj", "352"))
+        self.assertEqual([float(row[key]) for key in ("min_x", "min_z", "max_y", "max_z")],
+                         [-1, 0, 1, 2.75])
+
+    def test_bounding_box_is_where_nodes_place_the_meshes(self):
+        self.run_program("convert", "-q", "tube.obj", "tube.gltf")
+        asset = json.loads(self.read("tube.gltf"))
+        asset["nodes"] = [{"translation": [10, 0, 0], "children": [1]}, {"mesh": 0, "scale": [2, 1, 1]}]
+        asset["scenes"] = [{"nodes": [0]}]
+        self.write("placed.gltf", json.dumps(asset))
+        box = self.report("inspect", "placed.gltf")["bounding_box"]
+        self.assertEqual((box["min"], box["max"]), ([8, -1, 0], [12, 1, 2.75]))
+        self.run_program("convert", "-q", "placed.gltf", "placed.pstrip")
+        self.assertEqual(self.report("inspect", "placed.pstrip")["bounding_box"], box)
+        text = self.run_program("inspect", "placed.pstrip").out.decode()
+        self.assertIn("x from 8 to 12\n", text)
+        self.assertIn("in model units", " ".join(text.split()))
 
     def test_broken_files(self):
         noise = random.Random(7)
@@ -248,9 +270,33 @@ class Stripify(ProgramTest):
         for target in ("out.obj", "out.gltf", "out.glb"):
             self.run_program("stripify", "tube.obj", "-o", target)
             self.assertEqual(self.equivalence("tube.obj", target), "reordered", target)
+            colored = target.replace("out", "colored")
+            self.run_program("stripify", "tube.obj", "-o", colored, "--color-strips")
+            report = self.report("inspect", colored)
+            self.assertEqual((report["triangles"], report["materials"]), (352, 12))
+        self.run_program("stripify", "tube.obj", "-o", "colored.ply", "--color-strips")
+        self.assertIn("COLOR_0 3xu8 normalized", self.report("inspect", "colored.ply")["attributes"])
         run = self.run_program("stripify", "tube.obj", "-o", "-", "--to", "glb")
         self.assertTrue(run.out.startswith(b"glTF"))
         self.assertIn("indices sent", run.err)
+
+    def test_gltf_has_a_primitive_a_strip(self):
+        self.write_tube()
+        groups = 2  # the tube's materials
+        for algorithm in ("best", "sgi-strips", "qstrip", "mstrip", "multi-path"):
+            metrics = self.report("stripify", "tube.obj", "-o", "out.gltf", "--algorithm", algorithm,
+                                  "--force")
+            self.assertEqual(self.primitives("out.gltf"), [5] * metrics["strips"], algorithm)
+            self.assertEqual(self.equivalence("tube.obj", "out.gltf"), "reordered")
+            self.run_program("stripify", "tube.obj", "-o", "joined.gltf", "--algorithm", algorithm,
+                             "--join", "--force")
+            self.assertEqual(self.primitives("joined.gltf"), [5] * groups, algorithm)
+            self.assertEqual(self.equivalence("tube.obj", "joined.gltf"), "reordered")
+
+    def primitives(self, name):
+        """The mode of each primitive; 5 is a strip."""
+        meshes = json.loads(self.read(name))["meshes"]
+        return [primitive["mode"] for mesh in meshes for primitive in mesh["primitives"]]
 
 
 if __name__ == "__main__":
