@@ -30,7 +30,7 @@ struct Row {
   StripMetrics metrics;
   bool was_cut = false;  // by the time limit
 
-  std::string remark() const {
+  std::string note() const {
     return !metrics.fault.empty() ? metrics.fault : was_cut ? "cut by the time limit" : "";
   }
   double bytes_per_triangle() const {
@@ -138,7 +138,7 @@ std::vector<std::string> text_cells(const Row& row, std::string name, bool has_m
   return cells;
 }
 
-// Narrow enough for a terminal: variants stand below their algorithm, remarks below the table.
+// Narrow enough for a terminal: variants stand below their algorithm, notes below the table.
 void print_text(std::ostream& out, const Comparison& c) {
   out << heading(c) << "\n";
   std::vector<std::string> header{"stripifier", "strips", "single", "swaps",
@@ -154,9 +154,9 @@ void print_text(std::ostream& out, const Comparison& c) {
   }
   table.print(out);
   for (const Row& row : c.rows)
-    if (!row.remark().empty())
+    if (!row.note().empty())
       out << fmt::format("{}{}{}: {}\n", row.algorithm, row.variant.empty() ? "" : ", ",
-                         row.variant, row.remark());
+                         row.variant, row.note());
 }
 
 std::vector<std::string> markdown_cells(const Row& row, bool has_memory) {
@@ -176,7 +176,7 @@ std::vector<std::string> markdown_cells(const Row& row, bool has_memory) {
     cells.push_back(byte_size(m.peak_bytes));
     cells.push_back(fmt::format("{:.0f}", row.bytes_per_triangle()));
   }
-  cells.push_back(row.remark());
+  cells.push_back(row.note());
   return cells;
 }
 
@@ -212,7 +212,7 @@ void print_csv_rows(std::ostream& out, const Comparison& c) {
                        row.algorithm, csv_text(row.variant), s.triangles, s.strips, s.singletons,
                        s.swaps, s.entries, s.indices_sent, m.indices_per_triangle(), s.acmr16,
                        c.has_memory ? fmt::format("{},", m.peak_bytes) : "", m.milliseconds,
-                       csv_text(row.remark()));
+                       csv_text(row.note()));
   }
 }
 
@@ -231,7 +231,7 @@ Json json_of_row(const Row& row, bool has_memory) {
   if (has_memory) json["peak_bytes"] = m.peak_bytes;
   json["milliseconds"] = m.milliseconds;
   json["cpu_milliseconds"] = m.cpu_milliseconds;
-  json["remark"] = row.remark();
+  json["remark"] = row.note();
   return json;
 }
 

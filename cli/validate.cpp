@@ -132,10 +132,17 @@ ExitCode exit_code(const Judged& judged, const Streams& io) {
   }
 }
 
+std::string covered_formats() {
+  std::vector<std::string_view> names;
+  for (const FileFormatRow& row : file_formats())
+    if (row.is_validated) names.push_back(row.name);
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
 // A format that has no rules: known by what the file holds or, failing that, by its name.
 std::optional<FileFormat> uncovered_format(ByteView bytes, const std::string& path) {
   const auto format = detect_format(bytes, path);
-  if (!format || *format == FileFormat::pstrip || *format == FileFormat::pstripx) return {};
+  if (!format || row_of(*format).is_validated) return {};
   return looks_like_xml(bytes) ? std::nullopt : format;
 }
 
@@ -146,9 +153,8 @@ Judged judge(const std::string& path, const ValidateOptions& options) {
     out.refusal = file.error();
   } else if (const auto other = uncovered_format(file->view(), path)) {
     out.is_covered = false;
-    out.refusal =
-        Error{ErrorCode::unsupported,
-              fmt::format("the validator covers pstrip and pstripx, not {}", name_of(*other))};
+    out.refusal = Error{ErrorCode::unsupported, fmt::format("the validator covers {}, not {}",
+                                                            covered_formats(), name_of(*other))};
   } else {
     out.report = validate(file->view(), options);
   }
