@@ -24,7 +24,7 @@ TABLES = {
         20,
     ),
     "types of chunks": Table(
-        "formats/pstrip/container/chunks.h",
+        "formats/pstrip/container/chunk_table.h",
         r"^inline constexpr ChunkType (k\w+Chunk) =",
         "formats/pstrip/container/chunk_table.h",
         13,
@@ -49,7 +49,11 @@ class Tables(unittest.TestCase):
                     for name in re.findall(table.declaration, path.read_text(), re.MULTILINE)
                 }
                 self.assertGreaterEqual(len(declared), table.least)
-                listed = set(re.findall(r"\w+", (SOURCE / table.listed_in).read_text()))
+                # A declaration in the table's own file is no row.
+                rows = re.sub(
+                    table.declaration, "", (SOURCE / table.listed_in).read_text(), flags=re.MULTILINE
+                )
+                listed = set(re.findall(r"\w+", rows))
                 self.assertEqual(sorted(declared - listed), [])
 
     def test_of_file_formats_has_every_format(self):

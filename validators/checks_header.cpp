@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/payload/predicates.h"
 #include "validators/checks.h"
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "codecs/vsplit/level.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/digest.h"
 #include "formats/pstrip/payload/predicates.h"
@@ -161,7 +162,8 @@ void faces_counted(const Document& doc, Findings& out) {
 void faces_needed(const Document& doc, Findings& out) {
   noticed<Fault::faces_empty>(doc, out);
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    const bool there = doc.xml ? !mesh.faces.empty() : doc.mesh_chunks[m].find(kFacesChunk) != kNone;
+    const bool there =
+        doc.xml ? !mesh.faces.empty() : doc.mesh_chunks[m].find(kFacesChunk) != kNone;
     if (!there && !mesh.face_attribute_formats.empty())
       out.add({.field = Field::mesh, .mesh = m}, "the mesh has face attributes");
   });

@@ -12,7 +12,7 @@
 #include "converters/stream_decoder.h"
 #include "core/bytes.h"
 #include "formats/pstrip/container/binary.h"
-#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "tests/support/meshes.h"
 
 namespace pstrips {

@@ -6,7 +6,7 @@
 
 #include "converters/scene_level.h"
 #include "formats/pstrip/container/binary.h"
-#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "tests/support/meshes.h"
 
 namespace pstrips::test {

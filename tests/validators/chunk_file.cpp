@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/payload/layout.h"
 
 namespace pstrips::test {

@@ -1,4 +1,5 @@
 #include "formats/pstrip/container/binary.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/container/container_parser.h"
 #include "formats/pstrip/payload/decoder.h"
 

@@ -8,6 +8,20 @@
 
 namespace pstrips::inline formats {
 
+inline constexpr ChunkType kHeaderChunk = chunk_type("PSHD");
+inline constexpr ChunkType kSceneChunk = chunk_type("sCNE");
+inline constexpr ChunkType kMaterialsChunk = chunk_type("mTRL");
+inline constexpr ChunkType kMeshChunk = chunk_type("MESH");
+inline constexpr ChunkType kIndexChunk = chunk_type("PIDX");
+inline constexpr ChunkType kBaseChunk = chunk_type("BASE");
+inline constexpr ChunkType kPacketChunk = chunk_type("PCKT");
+inline constexpr ChunkType kFacesChunk = chunk_type("fACE");
+inline constexpr ChunkType kOrderChunk = chunk_type("oRDP");
+inline constexpr ChunkType kDigestChunk = chunk_type("dGST");
+inline constexpr ChunkType kImageChunk = chunk_type("iMGE");
+inline constexpr ChunkType kForeignChunk = chunk_type("fRGN");
+inline constexpr ChunkType kEndChunk = chunk_type("PEND");
+
 /// What there is at most one chunk of a type for.
 enum class ChunkOf : std::uint8_t { file, mesh, packet, image, entry };
 

@@ -28,20 +28,6 @@ constexpr ChunkType chunk_type(const char (&name)[5]) {
 }
 inline std::string_view name_of(const ChunkType& type) { return {type.data(), type.size()}; }
 
-inline constexpr ChunkType kHeaderChunk = chunk_type("PSHD");
-inline constexpr ChunkType kSceneChunk = chunk_type("sCNE");
-inline constexpr ChunkType kMaterialsChunk = chunk_type("mTRL");
-inline constexpr ChunkType kMeshChunk = chunk_type("MESH");
-inline constexpr ChunkType kIndexChunk = chunk_type("PIDX");
-inline constexpr ChunkType kBaseChunk = chunk_type("BASE");
-inline constexpr ChunkType kPacketChunk = chunk_type("PCKT");
-inline constexpr ChunkType kFacesChunk = chunk_type("fACE");
-inline constexpr ChunkType kOrderChunk = chunk_type("oRDP");
-inline constexpr ChunkType kDigestChunk = chunk_type("dGST");
-inline constexpr ChunkType kImageChunk = chunk_type("iMGE");
-inline constexpr ChunkType kForeignChunk = chunk_type("fRGN");
-inline constexpr ChunkType kEndChunk = chunk_type("PEND");
-
 /// Four ASCII letters, the third one upper case.
 bool is_chunk_type(const ChunkType& type);
 /// A reader that does not know the type must refuse the file. Bit 5 of the first letter, as PNG.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/limits.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/container/header.h"
 
 namespace pstrips::inline formats {

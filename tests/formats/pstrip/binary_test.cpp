@@ -8,7 +8,7 @@
 #include <cstring>
 #include <random>
 
-#include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/layout.h"
 #include "tests/support/progressive.h"

@@ -3,6 +3,8 @@
 #include <concepts>
 #include <optional>
 
+#include "formats/pstrip/container/chunk_table.h"
+
 namespace pstrips::inline formats {
 namespace {
 
