@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "codecs/compact/split_stream.h"
+
+namespace pstrips::inline codecs {
+
+/// The batch of each collapse, 0 the finest. In a batch no vertex takes part in two collapses, so
+/// that their order is free; across batches the sequence's order holds wherever two collapses
+/// share a vertex. Cost O(vertices + collapses) for a window of a fixed share.
+std::vector<Index> batches_of(std::span<const Collapse> collapses, Index vertices,
+                              const BatchOptions& options);
+
+/// The collapses of a sequence as a forest: leaves are the vertices of the source, an inner node
+/// is what two vertices became. Node numbers: vertices, then collapses, fine batches first.
+class CollapseForest {
+ public:
+  CollapseForest(std::span<const Collapse> collapses, std::span<const Index> batch, Index vertices);
+
+  static constexpr Index kLeafBatch = kNone;
+
+  bool is_leaf(Index node) const { return node < vertices_; }
+  Index kept(Index node) const { return inner_[node - vertices_].kept; }
+  Index removed(Index node) const { return inner_[node - vertices_].removed; }
+  Index batch(Index node) const {
+    return is_leaf(node) ? kLeafBatch : inner_[node - vertices_].batch;
+  }
+  std::span<const Index> roots() const { return roots_; }  ///< ascending leaves
+  Index vertices() const { return vertices_; }
+  Index collapses() const { return static_cast<Index>(inner_.size()); }
+  /// The inner nodes, fine batches first, each by its collapse's number in the sequence.
+  std::span<const Index> sequence() const { return sequence_; }
+
+  /// The leaves below a node are those with numbers first_leaf to end_leaf - 1.
+  Index leaf_of(Index vertex) const { return first_leaf_[vertex]; }
+  bool holds(Index node, Index leaf) const {
+    return leaf >= first_leaf_[node] && leaf < end_leaf_[node];
+  }
+  /// The root above a leaf, as a number into roots().
+  Index root_of(Index leaf) const;
+
+ private:
+  struct Inner {
+    Index kept, removed, batch;
+  };
+  void number_leaves();
+
+  Index vertices_;
+  std::vector<Inner> inner_;
+  std::vector<Index> sequence_, roots_, first_leaf_, end_leaf_;
+};
+
+}  // namespace pstrips::inline codecs

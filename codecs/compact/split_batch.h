@@ -1,0 +1,140 @@
+#pragma once
+
+#include <vector>
+
+#include "codecs/compact/split_code.h"
+#include "core/result.h"
+
+// For codecs/compact: a batch, the splits of one packet. [split_code.h]
+
+namespace pstrips::inline codecs {
+
+/// A split that no chord of a ring describes: who gets each face, and the new faces one by one.
+template <class Coder>
+Result<void> code_any(Coder& coder, SplitState& state, Index vertex, std::size_t max_faces,
+                      GridSplit& split) {
+  SplitModels& models = state.models;
+  std::vector<Index> corners, neighbours;
+  state.mesh.corners_of(vertex, corners);
+  for (const Index corner : corners)
+    for (const Index c : {StarMesh::next_in_face(corner), StarMesh::previous_in_face(corner)})
+      if (std::ranges::find(neighbours, state.mesh.vertex_of(c)) == neighbours.end())
+        neighbours.push_back(state.mesh.vertex_of(c));
+  split.moves.resize(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    split.moves[i] = coder.bit(models.moves, split.moves[i]);
+
+  // 15 and more: the rest as it is.
+  const auto wanted = static_cast<std::uint32_t>(split.third.size());
+  std::uint32_t faces = coder.symbol(models.faces, std::min(wanted, 15u));
+  if (faces == 15) faces += coder.raw(wanted - 15, 28);
+  if (state.mesh.face_count() + std::uint64_t{faces} > max_faces)
+    return fail(ErrorCode::corrupt, "more faces than the mesh has");
+  split.third.resize(faces);
+  split.new_first.resize(faces);
+  const auto near_bits = static_cast<unsigned>(std::bit_width(neighbours.size()));
+  const auto any_bits = static_cast<unsigned>(std::bit_width(state.mesh.vertex_count()));
+  for (std::uint32_t i = 0; i < faces; ++i) {
+    split.new_first[i] = coder.raw(split.new_first[i] ? 1 : 0, 1) != 0;
+    const auto near = static_cast<std::uint32_t>(std::ranges::find(neighbours, split.third[i]) -
+                                                 neighbours.begin());
+    const std::uint32_t coded = coder.raw(near, near_bits);
+    split.third[i] =
+        coded < neighbours.size() ? neighbours[coded] : coder.raw(split.third[i], any_bits);
+    if (split.third[i] >= state.mesh.vertex_count() || split.third[i] == vertex)
+      return fail(ErrorCode::corrupt, "third vertex of a new face is not there");
+  }
+  split.step.x = models.free_step[0].code(coder, split.step.x);
+  split.step.y = models.free_step[1].code(coder, split.step.y);
+  split.step.z = models.free_step[2].code(coder, split.step.z);
+  return {};
+}
+
+inline bool is_on_grid(GridPoint p) {
+  const auto fits = [](std::int32_t x) { return x >= -kMaxGrid && x <= kMaxGrid; };
+  return fits(p.x) && fits(p.y) && fits(p.z);
+}
+
+/// Carries out a split that was coded: mesh and positions. Nothing changes when it is refused.
+inline Result<Index> apply(SplitState& state, Index vertex, const VertexRing& ring,
+                           const GridSplit& split) {
+  constexpr std::int32_t kLargest = 2 * kMaxGrid;
+  const GridPoint step = split.step;
+  for (const std::int32_t x : {step.x, step.y, step.z})
+    if (x > kLargest || x < -kLargest) return fail(ErrorCode::corrupt, "vertex leaves the grid");
+  GridPoint kept = state.position[vertex];
+  if (state.placement == Placement::optimal) kept = kept - halved(step);
+  const GridPoint at = kept + step;
+  if (!is_on_grid(kept) || !is_on_grid(at))
+    return fail(ErrorCode::corrupt, "vertex leaves the grid");
+  state.position[vertex] = kept;
+  state.extend(at);
+  if (split.chord) return state.mesh.split(vertex, ring, split.from, split.to);
+
+  std::vector<Index> corners;
+  state.mesh.corners_of(vertex, corners);
+  const Index added = state.mesh.split_any(vertex, corners, split.moves);
+  for (std::size_t i = 0; i < split.third.size(); ++i)
+    if (split.new_first[i])
+      state.mesh.add_face(vertex, added, split.third[i]);
+    else
+      state.mesh.add_face(vertex, split.third[i], added);
+  return added;
+}
+
+/// Limits of the mesh that is being read, from its header.
+struct BatchLimits {
+  std::size_t vertices, faces;
+};
+
+/// One batch: for each vertex in order whether it splits, and how.
+///
+/// split_of  the split of a vertex or null, asked for in the order of the batch; a reader gives
+///           null always
+/// errors    corrupt: more vertices or faces than the limits, a vertex off the grid, and bytes that
+///           end early. The state is of no use then.
+template <class Coder, class SplitOf>
+Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limits,
+                        SplitOf&& split_of) {
+  std::vector<Index> order;
+  order.reserve(std::min(state.order.size() * 2, limits.vertices));
+  std::ranges::fill(state.split_around, std::uint8_t{0});
+  VertexRing ring;
+  GridSplit split;
+  for (const Index vertex : state.order) {
+    order.push_back(vertex);
+    const GridSplit* const wanted = split_of(vertex);
+    BitModel& splits =
+        state.models
+            .splits[state.is_new[vertex]]
+                   [std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
+                   [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)];
+    state.is_new[vertex] = 0;
+    if (!coder.bit(splits, wanted != nullptr)) continue;
+    if (state.mesh.vertex_count() >= limits.vertices)
+      return fail(ErrorCode::corrupt, "more vertices than the mesh has");
+    split = wanted ? *wanted : GridSplit{};
+    state.mesh.ring_of(vertex, ring);
+    const RingGeometry geometry(state, vertex, ring);
+    code_chord(coder, state, ring, geometry, split);
+    if (split.chord) {
+      code_step(coder, state, vertex, ring, geometry, split);
+      if (state.mesh.face_count() + std::size_t{2} > limits.faces + (ring.open ? 1u : 0u))
+        return fail(ErrorCode::corrupt, "more faces than the mesh has");
+    } else if (const auto ok = code_any(coder, state, vertex, limits.faces, split); !ok) {
+      return ok;
+    }
+    const Result<Index> added = apply(state, vertex, ring, split);
+    if (!added) return tl::unexpected<Error>(added.error());
+    state.is_new[vertex] = state.is_new[*added] = 1;
+    state.normal_error[*added] = state.normal_error[vertex];
+    for (unsigned i = 0; i < ring.size; ++i)
+      if (ring.vertex[i] != kNone && state.split_around[ring.vertex[i]] < 255)
+        ++state.split_around[ring.vertex[i]];
+    order.push_back(*added);
+  }
+  state.order = std::move(order);
+  return {};
+}
+
+}  // namespace pstrips::inline codecs

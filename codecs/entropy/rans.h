@@ -1,0 +1,176 @@
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <vector>
+
+#include "core/bytes.h"
+
+// Adaptive entropy coding: a model gives each symbol a share of 2^15, a range coder (rANS) spends
+// about -log2(share) bits on it, and the model learns. All arithmetic is on integers of stated
+// width, so that the bytes are the same on every machine. [Duda13]
+//
+// A coder in a template is a RansWriter or a RansReader: both have bit, symbol and raw, which take
+// the value to write (a reader ignores it) and return the value that stands there. So one function
+// says what a record looks like, and the two sides cannot drift apart.
+
+namespace pstrips::inline codecs {
+
+inline constexpr unsigned kShareBits = 15;
+inline constexpr std::uint32_t kShares = 1u << kShareBits;
+
+/// How probable a zero is, learned.
+class BitModel {
+ public:
+  std::uint32_t zeros() const { return zeros_; }  ///< of kShares; 32 to kShares - 32
+  void learn(bool one) {
+    const unsigned rate = seen_ < 8 ? 3 : seen_ < 24 ? 4 : seen_ < 60 ? 5 : 6;
+    if (seen_ < 60) ++seen_;
+    if (one)
+      zeros_ = static_cast<std::uint16_t>(zeros_ - ((zeros_ - kLeast) >> rate));
+    else
+      zeros_ = static_cast<std::uint16_t>(zeros_ + ((kShares - kLeast - zeros_) >> rate));
+  }
+
+ private:
+  static constexpr std::uint32_t kLeast = 32;
+  std::uint16_t zeros_ = kShares / 2;
+  std::uint8_t seen_ = 0;
+};
+
+/// The shares of sixteen symbols, learned; each keeps at least one.
+class SymbolModel {
+ public:
+  static constexpr unsigned kSymbols = 16;
+
+  SymbolModel() {
+    for (unsigned i = 0; i < kSymbols; ++i)
+      starts_[i] = static_cast<std::uint16_t>(i * (kShares / kSymbols));
+  }
+  std::uint32_t start(unsigned symbol) const { return starts_[symbol]; }
+  std::uint32_t end(unsigned symbol) const {
+    return symbol + 1 == kSymbols ? kShares : starts_[symbol + 1];
+  }
+  /// The symbol whose shares hold `share`.
+  unsigned at(std::uint32_t share) const {
+    unsigned symbol = 0;
+    for (unsigned i = 1; i < kSymbols; ++i) symbol += share >= starts_[i] ? 1 : 0;
+    return symbol;
+  }
+  void learn(unsigned symbol) {
+    const int rate = seen_ < 12 ? 4 : seen_ < 40 ? 5 : seen_ < 120 ? 6 : 7;
+    if (seen_ < 120) ++seen_;
+    for (unsigned i = 1; i < kSymbols; ++i) {
+      const int target = static_cast<int>(i <= symbol ? i : kShares - kSymbols + i);
+      starts_[i] = static_cast<std::uint16_t>(starts_[i] +
+                                              ((target - static_cast<int>(starts_[i])) >> rate));
+    }
+  }
+
+ private:
+  std::array<std::uint16_t, kSymbols> starts_;
+  std::uint8_t seen_ = 0;
+};
+
+/// Collects symbols and writes them as one run of bytes.
+class RansWriter {
+ public:
+  static constexpr bool kReads = false;
+
+  bool bit(BitModel& model, bool value) {
+    if (value)
+      put(model.zeros(), kShares - model.zeros());
+    else
+      put(0, model.zeros());
+    model.learn(value);
+    return value;
+  }
+  /// Precondition: value < SymbolModel::kSymbols.
+  unsigned symbol(SymbolModel& model, unsigned value) {
+    assert(value < SymbolModel::kSymbols);
+    put(model.start(value), model.end(value) - model.start(value));
+    model.learn(value);
+    return value;
+  }
+  /// `bits` bits that nothing is known of. Precondition: value < 2^bits, bits <= 32.
+  std::uint32_t raw(std::uint32_t value, unsigned bits) {
+    for (std::uint32_t rest = value; bits > 0;) {
+      const unsigned n = bits < kRawBits ? bits : kRawBits;
+      put((rest & ((1u << n) - 1)) << (kShareBits - n), 1u << (kShareBits - n));
+      rest >>= n;
+      bits -= n;
+    }
+    return value;
+  }
+
+  /// The bytes of all symbols so far; the writer is empty afterwards, the models go on.
+  Bytes finish();
+
+  static constexpr unsigned kRawBits = 12;  ///< in one step
+
+ private:
+  struct Step {
+    std::uint16_t start, shares;
+  };
+  void put(std::uint32_t start, std::uint32_t shares) {
+    steps_.push_back({static_cast<std::uint16_t>(start), static_cast<std::uint16_t>(shares)});
+  }
+  std::vector<Step> steps_;
+};
+
+/// Reads back what a RansWriter wrote, from bytes that nobody vouches for: past their end it reads
+/// zeros, and complete() is false.
+class RansReader {
+ public:
+  static constexpr bool kReads = true;
+
+  explicit RansReader(ByteView bytes);
+
+  bool bit(BitModel& model, bool = false) {
+    const bool one = share() >= model.zeros();
+    if (one)
+      take(model.zeros(), kShares - model.zeros());
+    else
+      take(0, model.zeros());
+    model.learn(one);
+    return one;
+  }
+  unsigned symbol(SymbolModel& model, unsigned = 0) {
+    const unsigned value = model.at(share());
+    take(model.start(value), model.end(value) - model.start(value));
+    model.learn(value);
+    return value;
+  }
+  std::uint32_t raw(std::uint32_t, unsigned bits) {
+    std::uint32_t value = 0;
+    for (unsigned at = 0; at < bits; at += RansWriter::kRawBits) {
+      const unsigned n = bits - at < RansWriter::kRawBits ? bits - at : RansWriter::kRawBits;
+      const std::uint32_t part = share() >> (kShareBits - n);
+      take(part << (kShareBits - n), 1u << (kShareBits - n));
+      value |= part << at;
+    }
+    return value;
+  }
+
+  /// All bytes are used up, none too many, and the coder is where the writer began. False for
+  /// nearly all bytes that no writer made.
+  bool complete() const;
+  /// Bytes were missing: what was read since is made up.
+  bool overrun() const { return overrun_; }
+
+ private:
+  std::uint32_t share() const { return state_ & (kShares - 1); }
+  void take(std::uint32_t start, std::uint32_t shares) {
+    state_ = shares * (state_ >> kShareBits) + share() - start;
+    if (state_ < (1u << 16)) state_ = state_ << 16 | word();
+  }
+  std::uint32_t word();
+
+  ByteView bytes_;
+  std::size_t at_ = 0;
+  std::uint32_t state_ = 0;
+  bool overrun_ = false;
+};
+
+}  // namespace pstrips::inline codecs
