@@ -31,6 +31,30 @@ constexpr Index kShown = kNone;
 constexpr Index kNoTriangle = kNone - 1;
 constexpr Index kRemoved = kNone - 1;  // instead of a wedge's first entry
 
+// Restarts before and behind the map, so that neighbours of entries need no check.
+constexpr std::size_t kMargin = 2;
+
+std::vector<Entry> entries_of(std::span<const Index> map) {
+  std::vector<Entry> entries;
+  entries.reserve(map.size() + 2 * kMargin);
+  entries.assign(kMargin, {kRestart, kNone, kNoTriangle, 0});
+  for (const Index wedge : map) entries.push_back({wedge, kNone, kNoTriangle, 0});
+  entries.insert(entries.end(), kMargin, {kRestart, kNone, kNoTriangle, 0});
+  return entries;
+}
+
+// "All swap operations can be encoded with symbol R-2" [Kim04 §3.4]; a doubled start with R-1.
+void encode_repetitions(std::vector<Entry>& entries) {
+  for (std::size_t i = kMargin; i < entries.size() - kMargin; ++i) {
+    Entry* e = &entries[i];
+    if (e->wedge == kRestart || e[-1].wedge == kRestart) continue;
+    if (e[-2].wedge == e->wedge)
+      e->symbol = -2;
+    else if (e[-1].wedge == e->wedge)
+      e->symbol = -1;
+  }
+}
+
 // Lists are written fine to coarse and turned round in the end.
 class Recorder {
  public:
@@ -55,8 +79,6 @@ class Recorder {
   }
   Entry& entry(Index i) { return entries_[std::size_t{i} + kMargin]; }
 
-  void copy_map(std::span<const Index> map);
-  void encode_repetitions();
   void list_entries();
   void find_triangles();
   void fetch(std::span<const WedgeMove> moves);
@@ -76,8 +98,6 @@ class Recorder {
   void write_base(const Numbering& numbers);
 
   static constexpr std::size_t kFetched = 32;  // moves at a time
-  // Restarts before and behind the map, so that neighbours of entries need no check.
-  static constexpr std::size_t kMargin = 2;
 
   const Mesh& mesh_;
   const CollapseSequence& sequence_;
@@ -101,10 +121,10 @@ Recorder::Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSeque
       sequence_(sequence),
       moves_kept_(!sequence.placements.empty()),
       symbols_(encoding == MapEncoding::offset),
+      entries_(entries_of(strips.entries)),
       wedge_vertex_(mesh.wedge_vertex) {
   if (moves_kept_) moved_ = mesh.position;
-  copy_map(strips.entries);
-  if (symbols_) encode_repetitions();
+  if (symbols_) encode_repetitions(entries_);
   list_entries();
   find_triangles();
   out_.mesh.encoding = encoding;
@@ -116,25 +136,6 @@ Recorder::Recorder(const Mesh& mesh, const StripMap& strips, const CollapseSeque
   out_.mesh.wedge_offset_counts.reserve(mesh.wedge_count());
   out_.mesh.map_offsets.reserve(strips.entries.size());
   if (moves_kept_) out_.mesh.parent_position.reserve(mesh.position.data.size());
-}
-
-void Recorder::copy_map(std::span<const Index> map) {
-  entries_.reserve(map.size() + 2 * kMargin);
-  entries_.assign(kMargin, {kRestart, kNone, kNoTriangle, 0});
-  for (const Index wedge : map) entries_.push_back({wedge, kNone, kNoTriangle, 0});
-  entries_.insert(entries_.end(), kMargin, {kRestart, kNone, kNoTriangle, 0});
-}
-
-// "All swap operations can be encoded with symbol R-2" [Kim04 §3.4]; a doubled start with R-1.
-void Recorder::encode_repetitions() {
-  for (std::size_t i = kMargin; i < entries_.size() - kMargin; ++i) {
-    Entry* e = &entries_[i];
-    if (e->wedge == kRestart || e[-1].wedge == kRestart) continue;
-    if (e[-2].wedge == e->wedge)
-      e->symbol = -2;
-    else if (e[-1].wedge == e->wedge)
-      e->symbol = -1;
-  }
 }
 
 void Recorder::list_entries() {
