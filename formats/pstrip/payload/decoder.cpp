@@ -90,7 +90,6 @@ bool PayloadDecoder::read_header(ReadIo& io) {
     return refuse(Fault::file_bytes);
   strips_.profile = *profile;
   geometry_ = codec_of(*profile).reader();
-  reservable_ = codec_of(*profile).max_expansion() * file_bytes_;
   header_ = h;
   return true;
 }
@@ -167,6 +166,9 @@ bool PayloadDecoder::read_index(ReadIo& io) {
   if (checks_model() &&
       !holds(fault_of_rows(rows_, *header_, counts_, *chunk_, codec_of(strips_.profile))))
     return false;
+  if (checks_model())
+    reservation_ = Reservation(rows_, strips_.meshes.size(),
+                               codec_of(strips_.profile).max_expansion() * file_bytes_);
   for (const ProgressiveMesh& mesh : strips_.meshes) reached_.push_back(first_packet(mesh));
   has_index_ = true;
   return true;
@@ -206,7 +208,7 @@ bool PayloadDecoder::read_base(ReadIo& io) {
   if (checks_model()) {
     const bool is_last = index + 1 == strips_.meshes.size();
     if (!holds(fault_of_base_row(row, *chunk_, is_last, header_->base_end))) return false;
-    reserve(index);
+    reservation_.reserve(mesh, index, counts_[index].vsplits, codec_of(strips_.profile));
   }
   if (geometry_->read(io, head, mesh) && (!checks_model() || check_base(strips_, index, faults_))) {
     strips_.bases.push_back(level_of(row, index, head.vertices));
@@ -217,35 +219,6 @@ bool PayloadDecoder::read_base(ReadIo& io) {
   for (Attribute& a : mesh.wedge_attributes) a.data = {};
   mesh.base_map = {};
   return false;
-}
-
-void PayloadDecoder::reserve(Index index) {
-  ProgressiveMesh& mesh = strips_.meshes[index];
-  // Only what the file's own size can justify, all meshes together.
-  const auto reserve_within_budget = [&](auto& list, std::uint64_t n) {
-    const std::uint64_t bytes = n * sizeof(list[0]);
-    if (bytes > reservable_) return;
-    reservable_ -= bytes;
-    list.reserve(n);
-  };
-  const std::uint64_t vsplits = counts_[index].vsplits;
-  const std::uint64_t position_bytes = mesh.position.element_bytes();
-  reserve_within_budget(mesh.position.data, mesh.vertices * position_bytes);
-  for (Attribute& a : mesh.wedge_attributes)
-    reserve_within_budget(a.data, mesh.wedges * a.element_bytes());
-  reserve_within_budget(mesh.vsplits, vsplits);
-  reserve_within_budget(mesh.wedge_offset_counts, mesh.wedges - mesh.base_wedges);
-  if (mesh.placement == Placement::optimal)
-    reserve_within_budget(mesh.parent_position, vsplits * position_bytes);
-  std::uint64_t packets = 0, bytes = 0;
-  for (std::size_t i = strips_.meshes.size(); i < rows_.size(); ++i)
-    if (rows_[i].mesh == index) {
-      ++packets;
-      bytes += rows_[i].bytes - chunk_bytes(0);
-    }
-  reserve_within_budget(
-      mesh.map_offsets,
-      codec_of(strips_.profile).estimate_map_offsets(mesh, vsplits, packets, bytes));
 }
 
 // ---- PCKT ----

@@ -7,6 +7,7 @@
 #include "core/limits.h"
 #include "formats/pstrip/payload/geometry.h"
 #include "formats/pstrip/payload/layout.h"
+#include "formats/pstrip/payload/reservation.h"
 
 namespace pstrips::inline formats {
 
@@ -73,13 +74,12 @@ class PayloadDecoder {
   /// What PIDX says of the current BASE or PCKT; null when it says nothing.
   const IndexRow* row() const;
   static Packet level_of(const IndexRow* row, Index mesh, Index vertices);
-  void reserve(Index mesh);
 
   Limits limits_;
   PayloadChecks checks_;
   FaultSink& faults_;
   std::uint64_t file_bytes_;
-  std::uint64_t reservable_ = 0;  ///< bytes that may still be allocated ahead of what is there
+  Reservation reservation_;
 
   ProgressiveStrips strips_;
   std::optional<FileHeader> header_;
