@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <ostream>
 
+#include "core/text.h"
+
 namespace pstrips::cli {
 namespace {
 
@@ -12,18 +14,9 @@ namespace {
 std::size_t printable_sequence(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x20 || byte(0) == 0x7f) return 0;
-  if (byte(0) < 0x80) return 1;
-  const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  if (byte(0) == 0xc2 && byte(1) < 0xa0) return 0;  // C1 controls, which terminals obey
-  // Overlong forms, surrogates and what lies beyond U+10FFFF; JSON takes none of them.
-  if (byte(0) == 0xe0 && byte(1) < 0xa0) return 0;
-  if (byte(0) == 0xed && byte(1) > 0x9f) return 0;
-  if (byte(0) == 0xf0 && byte(1) < 0x90) return 0;
-  if (byte(0) == 0xf4 && byte(1) > 0x8f) return 0;
-  return length;
+  const std::size_t length = utf8_length(text);
+  // C1 controls, which terminals obey.
+  return length == 2 && byte(0) == 0xc2 && byte(1) < 0xa0 ? 0 : length;
 }
 
 ExitCode exit_code(ErrorCode code) {

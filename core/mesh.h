@@ -16,7 +16,7 @@ using Index = std::uint32_t;
 inline constexpr Index kNone = 0xffff'ffff;
 
 /// The largest number of vertices, wedges, corners or faces of one mesh; the values above it are
-/// kNone, the restart marker and the offset-difference symbols. [spec/strips.md §2]
+/// kNone, the restart marker and the symbols of the offset encoding. [spec/strips.md §2]
 inline constexpr Index kMaxCount = 0xffff'ff00;
 
 enum class ComponentType : std::uint8_t { i8, u8, i16, u16, i32, u32, f32, f64 };

@@ -10,7 +10,7 @@
 namespace pstrips::inline core {
 
 // The index map: strips of wedges one after the other, parted by kRestart. An entry of the
-// offset-difference encoding may instead be one of four symbols, "the same wedge as the entry at
+// offset encoding may instead be one of four symbols, "the same wedge as the entry at
 // that distance". [Kim04 §3.2, §3.3; spec/strips.md]
 
 inline constexpr Index kRestart = 0xffff'ffff;

@@ -116,7 +116,7 @@ class MStrip {
     const Index t = triangle_of(entry);
     for (std::size_t i = 0; i < heads_.size(); i += 2) {
       Head &a = heads_[i], &b = heads_[i + 1];
-      if (a.triangle == t && b.triangle == t)  // a lone triangle keeps its other end
+      if (a.triangle == t && b.triangle == t)  // an isolated triangle keeps its other end
         b.entry = entry;
       else if (b.triangle == t)
         b = {};
