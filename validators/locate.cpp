@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "formats/pstrip/payload/extras.h"
-#include "formats/pstrip/payload/geometry.h"
+#include "formats/pstrip/payload/geometry_layout.h"
 
 namespace pstrips::inline validators {
 namespace {
@@ -184,9 +184,9 @@ class Locator {
   Location in_geometry(Index number, const void* list, std::uint64_t element,
                        const std::string& path) const {
     if (number >= chunks_.size()) return {};
-    const GeometryCodec& codec = codec_of(doc_.strips.profile);
+    const GeometryLayout& layout = layout_of(doc_.strips.profile);
     const ProgressiveMesh& mesh = doc_.strips.meshes[where_.mesh];
-    return in_payload(number, codec.position_of(chunks_[number], mesh, list, element), path);
+    return in_payload(number, layout.position_of(chunks_[number], mesh, list, element), path);
   }
   /// In a chunk of the description Extra. [payload/extras.h]
   template <class Extra>

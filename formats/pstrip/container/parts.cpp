@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "formats/pstrip/payload/geometry.h"
+#include "formats/pstrip/payload/geometry_layout.h"
 #include "formats/pstrip/payload/layout.h"
 
 namespace pstrips::inline formats {
@@ -58,7 +58,7 @@ class Lister {
 
   void add_geometry(const Chunk& chunk) {
     std::vector<PartMark> marks;
-    if (profile_) marks = codec_of(*profile_).parts(chunk, meshes_);
+    if (profile_) marks = layout_of(*profile_).parts(chunk, meshes_);
     if (marks.empty()) marks.push_back({});
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const std::uint64_t begin = marks[i].position;

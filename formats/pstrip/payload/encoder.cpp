@@ -23,7 +23,7 @@ IndexRow row_of(const Packet& packet) {
 }  // namespace
 
 PayloadEncoder::PayloadEncoder(const ProgressiveStrips& strips)
-    : strips_(strips), geometry_(codec_of(strips.profile).writer(strips)) {
+    : strips_(strips), geometry_(layout_of(strips.profile).writer(strips)) {
   for (const Image& image : strips.scene.images) embedded_.push_back(image.data.empty() ? 0 : 1);
   for (const BaseLevel& base : strips.bases) rows_.push_back(row_of(base));
   for (const Packet& packet : strips.packets) rows_.push_back(row_of(packet));

@@ -6,7 +6,7 @@
 
 #include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/container/header.h"
-#include "formats/pstrip/payload/geometry.h"
+#include "formats/pstrip/payload/geometry_layout.h"
 
 namespace pstrips::inline formats {
 

@@ -13,9 +13,9 @@
 // The seam between what all profiles share (chunks, packets, index, model, rules) and how one of
 // them codes the geometry: the payloads of BASE and PCKT.
 //
-// A profile is a folder beside payload/plain with a GeometryCodec, one row in kCodecs
-// (geometry.cpp) and one in kProfiles (core/profile.h). Nothing else knows how many bytes a record
-// takes.
+// A profile is a folder beside payload/plain with a GeometryCodec and a GeometryLayout, a row each
+// in kCodecs (geometry.cpp) and kLayouts (geometry_layout.cpp), and one in kProfiles
+// (core/profile.h). Nothing else knows how many bytes a record takes.
 
 namespace pstrips::inline formats {
 
@@ -52,31 +52,11 @@ class GeometryReader {
                     const PacketStart& start) = 0;
 };
 
-/// Writes the geometry of one file. Sizes are known before anything is written, so that offsets can
-/// be; chunks may be written in any order and more than once.
-class GeometryWriter {
- public:
-  virtual ~GeometryWriter() = default;
-
-  virtual std::uint64_t base_bytes(Index mesh) = 0;
-  virtual std::uint64_t packet_bytes(std::size_t packet) = 0;
-  /// payload  of that many bytes, all zero
-  virtual void write_base(Index mesh, std::span<std::byte> payload) = 0;
-  virtual void write_packet(std::size_t packet, std::span<std::byte> payload) = 0;
-};
-
-/// From here to the next mark, bytes of a payload belong to a part.
-struct PartMark {
-  Part part = Part::container;
-  std::uint64_t position = 0;  ///< in the payload
-};
-
-/// How one profile codes the geometry.
+/// How one profile codes the geometry, as far as a decoder is concerned; geometry_layout.h has the
+/// rest.
 class GeometryCodec {
  public:
   virtual std::unique_ptr<GeometryReader> reader() const = 0;
-  /// strips  outlives the writer
-  virtual std::unique_ptr<GeometryWriter> writer(const ProgressiveStrips& strips) const = 0;
 
   /// No payload of a PCKT is shorter, and none of a BASE.
   virtual std::uint64_t min_packet_bytes() const = 0;
@@ -89,18 +69,6 @@ class GeometryCodec {
   virtual std::uint64_t estimate_map_offsets(const ProgressiveMesh& mesh, std::uint64_t vsplits,
                                              std::uint64_t packets,
                                              std::uint64_t payload_bytes) const = 0;
-
-  /// Which bytes of the payload of a BASE or PCKT belong to what: marks ascending from 0. Empty
-  /// when the payload does not fit its own counts.
-  ///
-  /// meshes  as far as MESH describes them
-  virtual std::vector<PartMark> parts(const Chunk& chunk,
-                                      std::span<const ProgressiveMesh> meshes) const = 0;
-  /// The byte of the payload where an element of a list of the mesh stands; 0 when it is in none.
-  ///
-  /// list  the address of a list of `mesh`; `element` counts from where the chunk's part begins
-  virtual std::uint64_t position_of(const Chunk& chunk, const ProgressiveMesh& mesh,
-                                    const void* list, std::uint64_t element) const = 0;
 
  protected:
   ~GeometryCodec() = default;

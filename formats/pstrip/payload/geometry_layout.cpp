@@ -1,0 +1,24 @@
+#include "formats/pstrip/payload/geometry_layout.h"
+
+#include <algorithm>
+
+#include "formats/pstrip/payload/plain/plain.h"
+
+namespace pstrips::inline formats {
+namespace {
+
+struct ProfileLayout {
+  Profile profile;
+  const GeometryLayout& (*layout)();
+};
+constexpr ProfileLayout kLayouts[] = {{Profile::plain, plain_layout}};
+static_assert(std::ranges::equal(kLayouts, kProfiles, {}, &ProfileLayout::profile,
+                                 &ProfileName::profile));
+
+}  // namespace
+
+const GeometryLayout& layout_of(Profile profile) {
+  return std::ranges::find(kLayouts, profile, &ProfileLayout::profile)->layout();
+}
+
+}  // namespace pstrips::inline formats
