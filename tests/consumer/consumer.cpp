@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
   const bool same = pstrips::decode(*read)->meshes == model.meshes;
   if (argc > 1)
     std::ofstream(argv[1], std::ios::binary)
-        .write(reinterpret_cast<const char*>(file->data()), static_cast<std::streamsize>(file->size()));
+        .write(reinterpret_cast<const char*>(file->data()),
+               static_cast<std::streamsize>(file->size()));
   std::printf("%zu bytes, %s\n", file->size(), same ? "exact" : "different");
   return same ? 0 : 1;
 }
