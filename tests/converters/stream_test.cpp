@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <random>
-#include <set>
 
 #include "converters/decode.h"
 #include "converters/encode.h"
@@ -14,6 +12,7 @@
 #include "formats/pstrip/container/binary.h"
 #include "formats/pstrip/container/chunk_table.h"
 #include "tests/support/meshes.h"
+#include "tests/support/shown.h"
 
 namespace pstrips {
 namespace {
@@ -50,18 +49,6 @@ Sample small_sample() {
   Model model;
   model.meshes = {test::grid(8), test::cube(true)};
   return sample(std::move(model), {.keep_order = true, .packet_min = 8});
-}
-
-std::multiset<std::array<Index, 3>> triangles(std::span<const Index> map, const Level& level) {
-  std::multiset<std::array<Index, 3>> out;
-  for_each_triangle(
-      map, [&](Index w) { return level.vertex_of(w); },
-      [&](Index a, Index b, Index c) {
-        std::array t{a, b, c};
-        std::ranges::rotate(t, std::ranges::min_element(t));
-        out.insert(t);
-      });
-  return out;
 }
 
 // How many packets a file of `size` bytes shows; -1 before the base.
@@ -144,8 +131,8 @@ TEST(StreamDecoder, ShowsTheSameWhateverThePieces) {
         const Level& now = decoder.mesh(m).level();
         DisplayStrips display;
         decoder.mesh(m).append_display(display);
-        const auto in_display = triangles(display, now);
-        ASSERT_EQ(in_display, triangles(now.resolved(), now));
+        const auto in_display = test::triangles_of(display, now);
+        ASSERT_EQ(in_display, test::triangles_of(now.resolved(), now));
         ASSERT_EQ(decoder.mesh(m).cost().vertices_sent + decoder.mesh(m).cost().restarts,
                   display.size());
         total += in_display.size();

@@ -4,25 +4,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <set>
 
 #include "tests/support/progressive.h"
+#include "tests/support/shown.h"
 
 namespace pstrips {
 namespace {
-
-std::multiset<std::array<Index, 3>> triangles_of(std::span<const Index> map, const Level& level) {
-  std::multiset<std::array<Index, 3>> out;
-  for_each_triangle(
-      map, [&](Index w) { return level.vertex_of(w); },
-      [&](Index a, Index b, Index c) {
-        std::array t{a, b, c};
-        std::ranges::rotate(t, std::ranges::min_element(t));
-        out.insert(t);
-      });
-  return out;
-}
 
 /// Refines `mesh` and compares what is drawn with what the level shows; "" when they agree.
 std::string first_difference(const ProgressiveMesh& mesh, Filter filter, Index vsplits) {
@@ -31,7 +18,7 @@ std::string first_difference(const ProgressiveMesh& mesh, Filter filter, Index v
     DisplayStrips drawn;
     display.append_display(drawn);
     const Level& level = display.level();
-    if (triangles_of(drawn, level) != triangles_of(level.resolved(), level))
+    if (test::triangles_of(drawn, level) != test::triangles_of(level.resolved(), level))
       return "after " + std::to_string(level.vsplits_done()) + " vsplits";
     if (done >= mesh.vsplits.size()) return "";
     display.refine(vsplits);
