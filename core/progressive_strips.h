@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@ namespace pstrips::inline core {
 enum class MapEncoding : std::uint8_t {
   naive = 0,   ///< every entry is a wedge or a restart [Kim04 §3.2]
   offset = 1,  ///< entries may be symbols [Kim04 §3.3]
+  /// Three wedges a triangle and no restarts; the map grows, vsplits append the triangles that they
+  /// bring. Strips are made anew for each level that is drawn.
+  triangles = 2,
 };
 
 enum class Placement : std::uint8_t {
@@ -28,6 +33,9 @@ struct Vsplit {
   Index wedges;       ///< how many new wedges the new vertex brings
   Index reassigned;   ///< how many wedges it takes over from the parent
   Index map_offsets;  ///< how many index-map entries are rewritten, over all new wedges
+  /// How many triangles are appended to the map, after the entries are rewritten; 0 unless the map
+  /// is one of triangles.
+  Index triangles = 0;
   friend bool operator==(const Vsplit&, const Vsplit&) = default;
 };
 
@@ -56,6 +64,17 @@ struct OriginalOrder {
   friend bool operator==(const OriginalOrder&, const OriginalOrder&) = default;
 };
 
+/// A grid on which positions lie, or nearly. [spec/compact.md §3]
+struct PositionGrid {
+  float step = 0;  ///< in model units; 0: there is no grid
+  /// Grid coordinates are counted from here, in steps.
+  std::array<std::int64_t, 3> origin{};
+  /// Positions are the very points of the grid. Otherwise the grid tells which of its cells, of
+  /// which zero is in the middle of one, a coordinate is in, and `step` is a power of two.
+  bool exact = true;
+  friend bool operator==(const PositionGrid&, const PositionGrid&) = default;
+};
+
 /// A mesh as base and vertex splits. [spec/model.md]
 ///
 /// `position` and `wedge_attributes` hold the elements of all vertices and wedges in the order in
@@ -67,9 +86,11 @@ struct ProgressiveMesh {
   /// No wedge lists at all: wedge i is vertex i, each vsplit brings one wedge and reassigns none.
   bool single_wedges = true;
   std::vector<Group> groups;
-  /// Index-map entries (restarts included) of each group, in order.
+  /// Index-map entries (restarts included) of each group, in order; of a map of triangles, how many
+  /// there are of each at full resolution, in any order.
   std::vector<Index> group_entries;
 
+  PositionGrid grid;  ///< of the compact profile
   Attribute position;
   std::vector<Attribute> wedge_attributes;
   std::vector<Attribute> face_attribute_formats;  ///< formats only; data is in `faces`
@@ -78,7 +99,7 @@ struct ProgressiveMesh {
   Index base_vertices = 0;
   Index base_wedges = 0;
   std::vector<Index> base_wedge_vertex;  ///< base_wedges entries; empty when single_wedges
-  std::vector<Index> base_map;           ///< of full length from the start
+  std::vector<Index> base_map;           ///< of full length from the start, unless of triangles
 
   // Vertex splits, and their lists one after the other.
   std::vector<Vsplit> vsplits;
@@ -87,6 +108,9 @@ struct ProgressiveMesh {
   std::vector<Index> wedge_offset_counts;
   std::vector<Index> map_offsets;  ///< map offsets, ascending within a wedge
   std::vector<Index> reassigned;   ///< wedges taken over
+  std::vector<Index> new_corners;  ///< wedges, three for each triangle that is appended to the map
+  /// Of a map of triangles, a group for each, the base's first; empty: all are in group 0.
+  std::vector<Index> triangle_group;
 
   // At full resolution.
   Index vertices = 0, wedges = 0, triangles = 0, strips = 0;

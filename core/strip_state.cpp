@@ -12,10 +12,12 @@ constexpr std::uint64_t kWorkToStart = 1024;  // small meshes are never a matter
 
 VsplitRecord record_at(const ProgressiveMesh& mesh, const RecordStart& start) {
   const Vsplit& split = mesh.vsplits[start.vsplit];
-  return {mesh.base_vertices + static_cast<Index>(start.vsplit), split.parent,
+  return {mesh.base_vertices + static_cast<Index>(start.vsplit),
+          split.parent,
           std::span(mesh.reassigned).subspan(start.reassigned, split.reassigned),
           std::span(mesh.wedge_offset_counts).subspan(start.offset_count, split.wedges),
-          std::span(mesh.map_offsets).subspan(start.map_offset, split.map_offsets)};
+          std::span(mesh.map_offsets).subspan(start.map_offset, split.map_offsets),
+          std::span(mesh.new_corners).subspan(start.new_corner, std::size_t{3} * split.triangles)};
 }
 
 StripState::StripState(const ProgressiveMesh& mesh)
@@ -69,6 +71,16 @@ void StripState::remove_wedge() {
   --wedge_count_;
   if (!single_wedges_) wedge_vertex_.pop_back();
   if (lists_uses_) first_use_.pop_back();
+}
+
+void StripState::remove_triangle() {
+  for (unsigned k = 0; k < 3; ++k) {
+    if (lists_uses_) {
+      unlink(static_cast<Index>(resolved_.size() - 1));
+      uses_.pop_back();
+    }
+    resolved_.pop_back();
+  }
 }
 
 }  // namespace pstrips::inline core

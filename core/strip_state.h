@@ -12,13 +12,14 @@ namespace pstrips::inline core {
 
 /// Where the lists of a record start in those of its mesh.
 struct RecordStart {
-  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0;
+  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0, new_corner = 0;
   /// Moves on to the record after one with these counts.
   void skip(const Vsplit& split) {
     ++vsplit;
     offset_count += split.wedges;
     reassigned += split.reassigned;
     map_offset += split.map_offsets;
+    new_corner += std::size_t{3} * split.triangles;
   }
   friend bool operator==(const RecordStart&, const RecordStart&) = default;
 };
@@ -30,6 +31,7 @@ struct VsplitRecord {
   std::span<const Index> reassigned;     ///< wedges taken over from the parent
   std::span<const Index> offset_counts;  ///< one a new wedge
   std::span<const Index> map_offsets;    ///< of all new wedges, one list after the other
+  std::span<const Index> new_corners;    ///< of the triangles that are appended to the map
 };
 
 /// Precondition: the mesh has a record at `start`, and its lists are as long as the record says.
@@ -38,9 +40,10 @@ VsplitRecord record_at(const ProgressiveMesh& mesh, const RecordStart& start);
 /// What one step changed: what undo() needs to take it back.
 struct StripChange {
   enum class Kind : std::uint8_t {
-    entry,  ///< entry `at` held `stored` and showed the wedge `before`
-    owner,  ///< wedge `at` belonged to vertex `before`
-    wedge,  ///< wedge `at` was not there
+    entry,   ///< entry `at` held `stored` and showed the wedge `before`
+    owner,   ///< wedge `at` belonged to vertex `before`
+    wedge,   ///< wedge `at` was not there
+    append,  ///< nor were the three entries from `at` on
   };
   Kind kind;
   Index at;
@@ -123,6 +126,8 @@ class StripState {
       for (const Index* const end = offset + count; offset != end; ++offset)
         keep(write(*offset, wedge, wedge, changed));
     }
+    for (std::size_t c = 0; c < record.new_corners.size(); c += 3)
+      keep(append(record.new_corners.subspan(c).first<3>(), changed));
   }
 
   /// A new wedge, which no entry shows yet.
@@ -133,6 +138,10 @@ class StripState {
   /// of the offset encoding.
   template <class Changed>
   StripChange write(Index offset, Index stored, Index shown, Changed&& changed);
+
+  /// The map gets a triangle more. Precondition: it is one of triangles.
+  template <class Changed>
+  StripChange append(std::span<const Index, 3> corners, Changed&& changed);
 
   /// An existing wedge goes over, with its attributes, to `vertex`. `changed` is called only when
   /// uses are listed. Precondition: not with single wedges.
@@ -175,6 +184,7 @@ class StripState {
     (previous != kNone ? uses_[previous].next : first_use_[resolved_[at]]) = next;
   }
   void remove_wedge();
+  void remove_triangle();
 
   // Restarts before and behind the stored map, so that neighbours of entries need no check.
   static constexpr std::size_t kMargin = 2;
@@ -215,6 +225,21 @@ StripChange StripState::write(Index offset, Index stored, Index shown, Changed&&
 }
 
 template <class Changed>
+StripChange StripState::append(std::span<const Index, 3> corners, Changed&& changed) {
+  const auto first = static_cast<Index>(resolved_.size());
+  for (const Index wedge : corners) {
+    const auto at = static_cast<Index>(resolved_.size());
+    resolved_.push_back(wedge);
+    if (lists_uses_) {
+      uses_.emplace_back();
+      link(at);
+    }
+    changed(at);
+  }
+  return {StripChange::Kind::append, first, kNone};
+}
+
+template <class Changed>
 StripChange StripState::reassign(Index wedge, Index vertex, Changed&& changed) {
   const StripChange change{StripChange::Kind::owner, wedge, wedge_vertex_[wedge]};
   wedge_vertex_[wedge] = vertex;
@@ -234,6 +259,9 @@ void StripState::undo(const StripChange& change, Changed&& changed) {
       return;
     case StripChange::Kind::wedge:
       remove_wedge();
+      return;
+    case StripChange::Kind::append:
+      remove_triangle();
       return;
   }
 }
