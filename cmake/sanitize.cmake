@@ -3,7 +3,7 @@
 # but with its assertions.
 set(PSTRIPS_NEVER_READ triangulate stripify simplify measure)
 set(PSTRIPS_SANITIZED_TESTS
-    "^(core|formats|validators|codecs/vsplit|codecs/filter|codecs/entropy|codecs/compact)/|^converters/(any_input|compare|scene|stream)_test$")
+    "^(core|formats|validators|codecs/vsplit|codecs/filter)/|^converters/(any_input|compare|scene|stream)_test$")
 
 function(pstrips_sanitize target)
   if(PSTRIPS_SANITIZE)

@@ -3,9 +3,21 @@
 #include <span>
 #include <vector>
 
-#include "codecs/compact/split_stream.h"
+#include "codecs/collapse.h"
+#include "core/progressive_strips.h"
 
 namespace pstrips::inline codecs {
+
+struct BatchOptions {
+  /// subset: coarse vertices stand where the kept vertices of the source stand. optimal: a vertex
+  /// stands in the middle of the two that it becomes, whatever the collapses say: about a bit and
+  /// a half less a vertex, and levels that are farther from the source.
+  Placement placement = Placement::subset;
+  /// At most this share of the vertices that are left is removed in one batch …
+  double batch_share = 0.35;
+  /// … out of the next collapses, this share of the vertices many.
+  double window_share = 0.7;
+};
 
 /// The batch of each collapse, 0 the finest. In a batch no vertex takes part in two collapses, so
 /// that their order is free; across batches the sequence's order holds wherever two collapses

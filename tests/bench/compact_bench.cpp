@@ -11,13 +11,15 @@
 #include <cstdlib>
 #include <limits>
 
-#include "codecs/compact/split_stream.h"
 #include "codecs/simplify/simplify.h"
 #include "converters/files.h"
 #include "core/mesh.h"
+#include "tests/support/split_stream.h"
 
 namespace pstrips::bench {
 namespace {
+
+using namespace test;
 
 using Clock = std::chrono::steady_clock;
 

@@ -1,8 +1,8 @@
-#include "codecs/entropy/rans.h"
+#include "formats/pstrip/payload/compact/rans.h"
 
 #include <algorithm>
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline formats {
 namespace {
 
 /// Between steps a coder's state is at least this and below 2^32.
@@ -55,4 +55,4 @@ std::uint32_t RansReader::word() {
   return low | high << 8;
 }
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline formats

@@ -1,8 +1,8 @@
-#include "codecs/compact/star_mesh.h"
+#include "core/star_mesh.h"
 
 #include <cassert>
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline core {
 
 void StarMesh::reserve(std::size_t vertices, std::size_t faces) {
   vertex_.reserve(3 * faces);
@@ -114,4 +114,4 @@ Index StarMesh::split_any(Index vertex, std::span<const Index> corners,
   return added;
 }
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline core

@@ -1,12 +1,12 @@
-#include "codecs/compact/split_stream.h"
+#include "tests/support/split_stream.h"
 
 #include <algorithm>
 #include <cassert>
 
 #include "codecs/compact/batches.h"
-#include "codecs/compact/split_batch.h"
+#include "formats/pstrip/payload/compact/split_batch.h"
 
-namespace pstrips::inline codecs {
+namespace pstrips::test {
 namespace {
 
 /// Which triangles vanish with each collapse.
@@ -369,4 +369,4 @@ GridMesh SplitDecoder::mesh() const {
   return {state_.position, {corners.begin(), corners.end()}};
 }
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::test

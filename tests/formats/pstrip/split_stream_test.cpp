@@ -1,4 +1,4 @@
-#include "codecs/compact/split_stream.h"
+#include "tests/support/split_stream.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@
 
 namespace pstrips {
 namespace {
+
+using namespace test;
 
 /// The faces of three distinct vertices, on a grid.
 GridMesh on_grid(const Mesh& mesh, double scale) {

@@ -1,4 +1,4 @@
-#include "codecs/entropy/rans.h"
+#include "formats/pstrip/payload/compact/rans.h"
 
 #include <gtest/gtest.h>
 

@@ -6,14 +6,15 @@
 #include <cstdint>
 #include <vector>
 
-#include "codecs/compact/split_state.h"
+#include "formats/pstrip/payload/compact/split_state.h"
 
-// For codecs/compact: what a batch of splits looks like, once, for writing and for reading. Each
-// function takes a Coder of codecs/entropy/rans.h; a reader fills the split, a writer reads it.
+// For formats/pstrip/payload/compact: what a batch of splits looks like, once, for writing and for
+// reading. Each function takes a Coder of formats/pstrip/payload/compact/rans.h; a reader fills the
+// split, a writer reads it.
 //
 // Widths: differences of points take 25 bits, sums over a ring 31, squares of differences 52.
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline formats {
 
 /// The ring as numbers: each neighbour less the centre, and which chords are likely.
 class RingGeometry {
@@ -254,4 +255,4 @@ void code_step(Coder& coder, SplitState& state, Index vertex, const VertexRing& 
                 static_cast<std::int32_t>(coded[2])};
 }
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline formats

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "codecs/compact/split_code.h"
 #include "core/result.h"
+#include "formats/pstrip/payload/compact/split_code.h"
 
-// For codecs/compact: a batch, the splits of one packet. [split_code.h]
+// For formats/pstrip/payload/compact: a batch, the splits of one packet. [split_code.h]
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline formats {
 
 /// A split that no chord of a ring describes: who gets each face, and the new faces one by one.
 template <class Coder>
@@ -137,4 +137,4 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
   return {};
 }
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline formats

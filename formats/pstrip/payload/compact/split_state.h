@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "codecs/compact/split_models.h"
-#include "codecs/compact/star_mesh.h"
 #include "core/progressive_strips.h"
+#include "core/star_mesh.h"
+#include "formats/pstrip/payload/compact/split_models.h"
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline formats {
 
 /// What a split does: a vertex becomes two. Which of them keeps the number does not matter where
 /// both move; the rules of the code fix it, see split_code.h.
@@ -51,4 +51,4 @@ struct SplitState {
   }
 };
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline formats

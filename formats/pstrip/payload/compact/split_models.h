@@ -5,9 +5,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "codecs/entropy/rans.h"
+#include "formats/pstrip/payload/compact/rans.h"
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline formats {
 
 /// log2 of n in half steps, rounded down; 0 for 0 and 1.
 constexpr unsigned half_octaves(std::uint64_t n) {
@@ -97,4 +97,4 @@ struct SplitModels {
   std::array<NumberModel, 3> free_step;
 };
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline formats

@@ -7,7 +7,7 @@
 
 #include "core/mesh.h"
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline core {
 
 /// A vertex on the integer grid of a file. |coordinate| <= kMaxGrid.
 struct GridPoint {
@@ -84,4 +84,4 @@ class StarMesh {
   mutable std::vector<Index> slot_;  // scratch of ring_of(), checked before it is believed
 };
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline core

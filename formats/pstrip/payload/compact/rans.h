@@ -15,7 +15,7 @@
 // the value to write (a reader ignores it) and return the value that stands there. So one function
 // says what a record looks like, and the two sides cannot drift apart.
 
-namespace pstrips::inline codecs {
+namespace pstrips::inline formats {
 
 inline constexpr unsigned kShareBits = 15;
 inline constexpr std::uint32_t kShares = 1u << kShareBits;
@@ -173,4 +173,4 @@ class RansReader {
   bool overrun_ = false;
 };
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::inline formats

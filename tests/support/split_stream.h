@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "codecs/collapse.h"
-#include "codecs/compact/split_state.h"
+#include "codecs/compact/batches.h"
 #include "core/result.h"
+#include "formats/pstrip/payload/compact/split_state.h"
 
-namespace pstrips::inline codecs {
+namespace pstrips::test {
 
 /// Triangles on an integer grid.
 struct GridMesh {
@@ -24,17 +24,6 @@ struct SplitStream {
   std::vector<Bytes> batches;   ///< coarse to fine
   std::uint32_t vertices = 0;   ///< of the whole mesh
   std::uint32_t triangles = 0;  ///< of the whole mesh
-};
-
-struct BatchOptions {
-  /// subset: coarse vertices stand where the kept vertices of the source stand. optimal: a vertex
-  /// stands in the middle of the two that it becomes, whatever the collapses say: about a bit and
-  /// a half less a vertex, and levels that are farther from the source.
-  Placement placement = Placement::subset;
-  /// At most this share of the vertices that are left is removed in one batch …
-  double batch_share = 0.35;
-  /// … out of the next collapses, this share of the vertices many.
-  double window_share = 0.7;
 };
 
 /// What became of the source's numbers, and what the stream has.
@@ -82,4 +71,4 @@ class SplitDecoder {
   bool broken_ = false;
 };
 
-}  // namespace pstrips::inline codecs
+}  // namespace pstrips::test
