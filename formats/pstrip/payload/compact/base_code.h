@@ -1,0 +1,308 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "core/result.h"
+#include "core/star_mesh.h"
+#include "formats/pstrip/payload/compact/split_models.h"
+
+// For formats/pstrip/payload/compact: the base of a mesh, once for writing and for reading. Its
+// triangles come in the order of their map. One that continues a triangle across an edge (a gate)
+// costs its third vertex; any other is named corner by corner, so that no order and no complex is
+// excluded. [spec/compact.md §5]
+
+namespace pstrips::inline formats {
+
+/// A mesh of wedges with its numbers as cells.
+struct BaseMesh {
+  std::vector<GridPoint> positions;       ///< a vertex each
+  std::vector<Index> wedge_vertex;        ///< a wedge each
+  std::vector<std::int32_t> wedge_cells;  ///< all attributes, `columns` a wedge
+  unsigned columns = 0;
+  std::vector<Index> corners;  ///< wedges, three a triangle
+  std::vector<Index> group;    ///< a triangle each
+  friend bool operator==(const BaseMesh&, const BaseMesh&) = default;
+};
+
+/// What a reader knows beforehand.
+struct BaseCounts {
+  Index vertices = 0, wedges = 0, triangles = 0, groups = 1;
+  unsigned columns = 0;
+  bool single_wedges = true;  ///< wedge i is vertex i
+};
+
+struct BaseModels {
+  SymbolModel place;     ///< where the next triangle is
+  SymbolModel third;     ///< of a triangle at a gate
+  BitModel next_vertex;  ///< of a triangle at no gate: the first that has not come yet
+  BitModel usual_wedge;  ///< the one across the gate, or the last one at the vertex
+  BitModel next_wedge;   ///< the first that has not come yet
+  BitModel same_group;   ///< as the triangle before
+  std::array<NumberModel, 3> near, far;  ///< positions, at a gate and at none
+  std::vector<NumberModel> column;
+};
+
+/// One base. A triangle at a gate begins with the gate's edge, turned round.
+template <class Coder>
+class BaseCode {
+ public:
+  /// mesh  to write; a reader fills it
+  BaseCode(Coder& coder, const BaseCounts& counts, BaseMesh& mesh)
+      : coder_(coder), counts_(counts), mesh_(mesh) {
+    models_.column.resize(counts.columns);
+    is_known_.resize(counts.vertices);
+    is_known_wedge_.resize(counts.wedges);
+    last_wedge_of_.resize(counts.vertices, kNone);
+    if constexpr (Coder::kReads) {
+      mesh.columns = counts.columns;
+      mesh.positions.resize(counts.vertices);
+      mesh.wedge_vertex.resize(counts.wedges);
+      mesh.wedge_cells.resize(std::size_t{counts.wedges} * counts.columns);
+      mesh.corners.resize(std::size_t{3} * counts.triangles);
+      mesh.group.resize(counts.triangles);
+    }
+  }
+
+  /// cost    O(vertices + wedges + triangles)
+  /// errors  corrupt: an index past the end, a vertex twice in a triangle, a wedge of two vertices.
+  ///         Bytes that end early are the caller's to see
+  Result<void> run() {
+    for (Index t = 0; t < counts_.triangles; ++t)
+      if (auto ok = code_triangle(t); !ok) return ok;
+    for (Index v = 0; v < counts_.vertices; ++v)
+      if (!is_known_[v]) code_position(v, models_.far, last_position_);
+    for (Index w = 0; w < counts_.wedges; ++w) {
+      if (is_known_wedge_[w]) continue;
+      const Index v =
+          counts_.single_wedges ? w : coder_.raw(mesh_.wedge_vertex[w], bits_for(counts_.vertices));
+      if (v >= counts_.vertices) return fail(ErrorCode::corrupt, "wedge of no vertex");
+      code_new_wedge(w, v, last_wedge_ == kNone ? Row{} : row_of(last_wedge_));
+    }
+    return {};
+  }
+
+ private:
+  using Row = std::vector<std::int32_t>;  // a number a column; empty: all zero
+  enum Place : unsigned { kAtGate, kGateIsOpen, kAtNone };
+  static constexpr unsigned kNext = 0, kNamed = SymbolModel::kSymbols - 1;
+
+  struct Gate {
+    Index from, to;  // vertices, as the triangle behind has them
+    Index triangle;  // that one
+    unsigned from_corner;
+  };
+
+  static unsigned bits_for(Index count) { return static_cast<unsigned>(std::bit_width(count)); }
+  Index vertex(Index t, unsigned k) const { return mesh_.wedge_vertex[mesh_.corners[3 * t + k]]; }
+
+  Result<void> code_triangle(Index t) {
+    const Gate* const gate = code_place(t);
+    if (gate == nullptr && !at_none_) return fail(ErrorCode::corrupt, "base has no such gate");
+    std::array<Index, 3> v{};
+    Gate at{};
+    if (gate != nullptr) at = *gate;
+    for (unsigned k = 0; k < 3; ++k) {
+      const Index wanted = Coder::kReads ? 0 : vertex(t, k);
+      if (gate == nullptr)
+        v[k] = code_vertex(wanted);
+      else
+        v[k] = k == 0 ? at.to : k == 1 ? at.from : code_third(wanted);
+      if (v[k] >= counts_.vertices)
+        return fail(ErrorCode::corrupt, "triangle of the base names a vertex past the end");
+      for (unsigned i = 0; i < k; ++i)
+        if (v[i] == v[k])
+          return fail(ErrorCode::corrupt, "triangle of the base names a vertex twice");
+      if (auto ok = code_corner(t, k, v[k], gate != nullptr ? &at : nullptr); !ok) return ok;
+    }
+    code_group(t);
+    if (gate != nullptr) gates_.pop_front();
+    for (const unsigned k : {1u, 2u}) gates_.push_back({v[k], v[(k + 1) % 3], t, k});
+    if (gate == nullptr) gates_.push_back({v[0], v[1], t, 0});
+    return {};
+  }
+
+  /// The gate of the next triangle, or null: `at_none_` says whether that is right.
+  const Gate* code_place(Index t) {
+    while (true) {
+      const unsigned place = coder_.symbol(models_.place, Coder::kReads ? 0 : place_of(t));
+      at_none_ = place == kAtNone;
+      if (gates_.empty() || place > kGateIsOpen) return nullptr;
+      if (place == kAtGate) return &gates_.front();
+      gates_.pop_front();
+    }
+  }
+
+  unsigned place_of(Index t) const {
+    // As far as this a writer looks for the gate of its next triangle.
+    constexpr std::size_t kReach = 256;
+    const auto is_at = [&](const Gate& g) {
+      return g.to == vertex(t, 0) && g.from == vertex(t, 1);
+    };
+    if (!gates_.empty() && is_at(gates_.front())) return kAtGate;
+    const auto end = gates_.begin() + static_cast<std::ptrdiff_t>(std::min(gates_.size(), kReach));
+    return std::any_of(gates_.begin(), end, is_at) ? kGateIsOpen : kAtNone;
+  }
+
+  /// The other ends of gates near in the queue that share a vertex with the first.
+  std::vector<Index> likely_thirds() const {
+    constexpr std::size_t kWindow = 8;
+    const Gate& gate = gates_.front();
+    std::vector<Index> out;
+    const auto add = [&](Index shared, Index other) {
+      const bool shares = shared == gate.from || shared == gate.to;
+      if (shares && other != gate.from && other != gate.to &&
+          out.size() + 2 < SymbolModel::kSymbols && std::ranges::find(out, other) == out.end())
+        out.push_back(other);
+    };
+    const std::size_t n = gates_.size();
+    for (std::size_t i = 1; i < std::min(n, kWindow); ++i)
+      for (const std::size_t at : {i, n - i}) {
+        add(gates_[at].from, gates_[at].to);
+        add(gates_[at].to, gates_[at].from);
+      }
+    return out;
+  }
+
+  Index code_third(Index wanted) {
+    const std::vector<Index> likely = likely_thirds();
+    unsigned symbol = kNamed;
+    if constexpr (!Coder::kReads) {
+      const auto at = std::ranges::find(likely, wanted);
+      if (wanted == next_vertex_)
+        symbol = kNext;
+      else if (at != likely.end())
+        symbol = static_cast<unsigned>(1 + (at - likely.begin()));
+    }
+    symbol = coder_.symbol(models_.third, symbol);
+    if (symbol == kNext) return next_vertex_;
+    if (symbol <= likely.size()) return likely[symbol - 1];
+    return coder_.raw(wanted, bits_for(counts_.vertices));
+  }
+
+  Index code_vertex(Index wanted) {
+    if (coder_.bit(models_.next_vertex, wanted == next_vertex_)) return next_vertex_;
+    return coder_.raw(wanted, bits_for(counts_.vertices));
+  }
+
+  /// gate  of the triangle, or null
+  Result<void> code_corner(Index t, unsigned k, Index v, const Gate* gate) {
+    const bool is_third = gate != nullptr && k == 2;
+    if (!is_known_[v]) {
+      if (is_third)
+        code_position(v, models_.near,
+                      mesh_.positions[gate->from] + mesh_.positions[gate->to] -
+                          mesh_.positions[opposite(*gate)]);
+      else
+        code_position(v, models_.far, last_position_);
+    }
+    Index usual = last_wedge_of_[v];
+    if (gate != nullptr && k < 2)
+      usual = mesh_.corners[3 * gate->triangle + (gate->from_corner + 1 - k) % 3];
+    Row predicted;
+    if (is_third)
+      predicted = beyond(t, *gate);
+    else if (const Index near = usual != kNone ? usual : last_wedge_; near != kNone)
+      predicted = row_of(near);
+    return code_wedge(mesh_.corners[3 * t + k], v, usual, predicted);
+  }
+
+  Index opposite(const Gate& gate) const {
+    return vertex(gate.triangle, (gate.from_corner + 2) % 3);
+  }
+
+  /// The parallelogram of wedges.
+  Row beyond(Index t, const Gate& gate) const {
+    const Index far = mesh_.corners[3 * gate.triangle + (gate.from_corner + 2) % 3];
+    Row out = row_of(mesh_.corners[3 * t]);
+    for (unsigned c = 0; c < counts_.columns; ++c)
+      out[c] += mesh_.wedge_cells[column_of(mesh_.corners[3 * t + 1], c)] -
+                mesh_.wedge_cells[column_of(far, c)];
+    return out;
+  }
+
+  void code_position(Index v, std::array<NumberModel, 3>& models, GridPoint predicted) {
+    GridPoint& at = mesh_.positions[v];
+    code_number(models[0], predicted.x, at.x);
+    code_number(models[1], predicted.y, at.y);
+    code_number(models[2], predicted.z, at.z);
+    is_known_[v] = true;
+    while (next_vertex_ < counts_.vertices && is_known_[next_vertex_]) ++next_vertex_;
+    last_position_ = at;
+  }
+
+  void code_number(NumberModel& model, std::int32_t predicted, std::int32_t& value) {
+    const std::int32_t coded =
+        predicted + model.code(coder_, Coder::kReads ? 0 : value - predicted);
+    if constexpr (Coder::kReads) value = std::clamp(coded, -kMaxGrid, kMaxGrid);
+  }
+
+  /// usual  a wedge of v, or kNone
+  Result<void> code_wedge(Index& wedge, Index v, Index usual, const Row& predicted) {
+    if (counts_.single_wedges) {
+      wedge = v;
+      if (!is_known_wedge_[v]) code_new_wedge(v, v, predicted);
+      return {};
+    }
+    if (usual != kNone && coder_.bit(models_.usual_wedge, wedge == usual)) {
+      wedge = last_wedge_of_[v] = usual;
+      return {};
+    }
+    if (coder_.bit(models_.next_wedge, wedge == next_wedge_))
+      wedge = next_wedge_;
+    else
+      wedge = coder_.raw(wedge, bits_for(counts_.wedges));
+    if (wedge >= counts_.wedges) return fail(ErrorCode::corrupt, "base names a wedge past the end");
+    if (!is_known_wedge_[wedge])
+      code_new_wedge(wedge, v, predicted);
+    else if (mesh_.wedge_vertex[wedge] != v)
+      return fail(ErrorCode::corrupt, "wedge of the base is at two vertices");
+    last_wedge_of_[v] = wedge;
+    return {};
+  }
+
+  void code_new_wedge(Index wedge, Index v, const Row& predicted) {
+    mesh_.wedge_vertex[wedge] = v;
+    for (unsigned c = 0; c < counts_.columns; ++c)
+      code_number(models_.column[c], predicted.empty() ? 0 : predicted[c],
+                  mesh_.wedge_cells[column_of(wedge, c)]);
+    is_known_wedge_[wedge] = true;
+    while (next_wedge_ < counts_.wedges && is_known_wedge_[next_wedge_]) ++next_wedge_;
+    last_wedge_ = last_wedge_of_[v] = wedge;
+  }
+
+  void code_group(Index t) {
+    if (counts_.groups < 2) return;
+    const Index before = t > 0 ? mesh_.group[t - 1] : 0;
+    Index& group = mesh_.group[t];
+    if (coder_.bit(models_.same_group, group == before))
+      group = before;
+    else
+      group = std::min(coder_.raw(group, bits_for(counts_.groups - 1)), counts_.groups - 1);
+  }
+
+  std::size_t column_of(Index wedge, unsigned c) const {
+    return std::size_t{wedge} * counts_.columns + c;
+  }
+  Row row_of(Index wedge) const {
+    const auto first = mesh_.wedge_cells.begin() + static_cast<std::ptrdiff_t>(column_of(wedge, 0));
+    return {first, first + static_cast<std::ptrdiff_t>(counts_.columns)};
+  }
+
+  Coder& coder_;
+  const BaseCounts counts_;
+  BaseMesh& mesh_;
+  BaseModels models_;
+  std::deque<Gate> gates_;
+  std::vector<bool> is_known_, is_known_wedge_;
+  std::vector<Index> last_wedge_of_;  // a vertex each; kNone: it has none yet
+  Index next_vertex_ = 0, next_wedge_ = 0, last_wedge_ = kNone;
+  GridPoint last_position_;
+  bool at_none_ = false;
+};
+
+}  // namespace pstrips::inline formats
