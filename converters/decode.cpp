@@ -19,26 +19,37 @@ tl::unexpected<Error> failed_mesh(Error error, std::size_t mesh) {
   return tl::unexpected(std::move(error));
 }
 
+// How many entries of a map of triangles, as far as it goes, belong to each group.
+std::vector<Index> count_group_entries(const ProgressiveMesh& mesh) {
+  std::vector<Index> out(mesh.group_entries.size(), 0);
+  if (mesh.triangle_group.empty())
+    out[0] = static_cast<Index>(mesh.base_map.size() + mesh.new_corners.size());
+  for (const Index group : mesh.triangle_group) out[group] += 3;
+  return out;
+}
+
 // What the first packets of a mesh leave of its arrays.
 void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
-  std::size_t wedges = 0, reassigned = 0, map_offsets = 0;
-  for (Index i = 0; i < vsplits; ++i) {
-    wedges += mesh.single_wedges ? 1 : mesh.vsplits[i].wedges;
-    reassigned += mesh.vsplits[i].reassigned;
-    map_offsets += mesh.vsplits[i].map_offsets;
-  }
+  RecordStart end;
+  while (end.vsplit < vsplits) end.skip(mesh.vsplits[end.vsplit]);
   mesh.vsplits.resize(vsplits);
   mesh.vertices = mesh.base_vertices + vsplits;
-  mesh.wedges = mesh.base_wedges + static_cast<Index>(wedges);
+  mesh.wedges = mesh.base_wedges + static_cast<Index>(end.offset_count);
   mesh.triangles = last.triangles;
   mesh.strips = last.strips;
   mesh.position.data.resize(mesh.position.element_bytes() * mesh.vertices);
   for (Attribute& a : mesh.wedge_attributes) a.data.resize(a.element_bytes() * mesh.wedges);
   if (mesh.placement == Placement::optimal)
     mesh.parent_position.resize(mesh.position.element_bytes() * vsplits);
-  mesh.wedge_offset_counts.resize(wedges);
-  mesh.reassigned.resize(reassigned);
-  mesh.map_offsets.resize(map_offsets);
+  mesh.wedge_offset_counts.resize(end.offset_count);
+  mesh.reassigned.resize(end.reassigned);
+  mesh.map_offsets.resize(end.map_offset);
+  mesh.new_corners.resize(end.new_corner);
+  if (mesh.encoding == MapEncoding::triangles) {
+    if (!mesh.triangle_group.empty())
+      mesh.triangle_group.resize((mesh.base_map.size() + end.new_corner) / 3);
+    mesh.group_entries = count_group_entries(mesh);
+  }
   mesh.faces = {};
   mesh.face_attribute_formats = {};
   mesh.order = {};
@@ -106,6 +117,7 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets) {
     progressive.wedge_offset_counts = {};
     progressive.map_offsets = {};
     progressive.reassigned = {};
+    progressive.new_corners = {};
     Result<Mesh> mesh = decoded_mesh(level);
     if (!mesh) return failed_mesh(mesh.error(), m);
     model.meshes.push_back(std::move(mesh).value());

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 
+#include "codecs/filter/derived_strips.h"
+
 namespace pstrips::inline codecs {
 
 DisplayLevel::DisplayLevel(const ProgressiveMesh& mesh, Filter filter)
-    : level_(mesh),
-      filter_(filter),
-      strips_(strip_ranges(level_.resolved())),
-      segments_(strips_.size()),
-      filtered_to_(level_.next()),
-      is_changed_(strips_.size()) {
+    : level_(mesh), filter_(filter), filtered_to_(level_.next()) {
+  if (is_derived()) {
+    derive();
+    return;
+  }
+  strips_ = strip_ranges(level_.resolved());
+  segments_.resize(strips_.size());
+  is_changed_.resize(strips_.size());
   level_.track_reassigned();
   for (std::size_t s = 0; s < strips_.size(); ++s) refilter(s);
 }
@@ -27,8 +31,19 @@ void DisplayLevel::mark_changed(std::span<const Index> entries) {
   }
 }
 
+std::size_t DisplayLevel::derive() {
+  pool_ = derive_strips(level_.view());
+  cost_ = display_cost(pool_);
+  return pool_.empty() ? 0 : cost_.restarts + 1;
+}
+
 // Entries that follow a written one are in its strip.
 std::size_t DisplayLevel::update() {
+  if (is_derived()) {
+    if (filtered_to_ == level_.next()) return 0;
+    filtered_to_ = level_.next();
+    return derive();
+  }
   changed_.clear();
   mark_changed(level_.offsets_since(filtered_to_));
   mark_changed(level_.take_reassigned());
@@ -70,12 +85,17 @@ void DisplayLevel::compact() {
 
 DisplayCost DisplayLevel::cost() const {
   DisplayCost out = cost_;
-  if (out.restarts > 0) --out.restarts;  // the first segment's
+  if (out.restarts > 0 && !is_derived()) --out.restarts;  // the first segment's
   return out;
 }
 
 void DisplayLevel::append_display(DisplayStrips& out) const {
   const std::size_t start = out.size();
+  if (is_derived()) {
+    if (start > 0 && !pool_.empty()) out.push_back(kRestart);
+    out.insert(out.end(), pool_.begin(), pool_.end());
+    return;
+  }
   for (const Segment& segment : segments_) {
     const auto first = pool_.begin() + static_cast<std::ptrdiff_t>(segment.first);
     out.insert(out.end(), first, first + segment.entries);

@@ -20,21 +20,13 @@ struct Triangles {
 
 Triangles triangles_of(const LevelView& level) {
   Triangles out;
-  const ProgressiveMesh& mesh = *level.mesh;
-  const std::span<const Index> map = level.resolved;
-  const auto vertex_of = [&](Index w) { return level.vertex_of(w); };
-  const bool grouped = mesh.groups.size() > 1;
-  if (level.vertices == mesh.vertices)
-    out.corners.reserve(std::min<std::size_t>(mesh.triangles, map.size()) * 3);
-  std::size_t first = 0;
-  for (std::size_t g = 0; g < mesh.group_entries.size(); ++g) {
-    for_each_triangle(map.subspan(first, mesh.group_entries[g]), vertex_of,
-                      [&](Index a, Index b, Index c) {
-                        out.corners.insert(out.corners.end(), {a, b, c});
-                        if (grouped) out.group.push_back(static_cast<Index>(g));
-                      });
-    first += mesh.group_entries[g];
-  }
+  const bool grouped = level.mesh->groups.size() > 1;
+  if (level.vertices == level.mesh->vertices)
+    out.corners.reserve(std::min<std::size_t>(level.mesh->triangles, level.resolved.size()) * 3);
+  for_each_triangle(level, [&](Index a, Index b, Index c, Index group) {
+    out.corners.insert(out.corners.end(), {a, b, c});
+    if (grouped) out.group.push_back(group);
+  });
   return out;
 }
 

@@ -14,7 +14,7 @@ namespace pstrips::inline codecs {
 struct LevelView {
   const ProgressiveMesh* mesh;
   Index vertices, wedges;
-  std::span<const Index> resolved;        ///< the map with every symbol replaced; restarts stay
+  std::span<const Index> resolved;        ///< as Level::resolved()
   std::span<const Index> wedge_vertices;  ///< empty with single wedges
   ByteView positions;                     ///< of all vertices of the level, one element each
 
@@ -23,12 +23,18 @@ struct LevelView {
   }
 };
 
+/// Calls `visit(a, b, c, group)` with the three wedges of every triangle that a level shows, in map
+/// order, wound as the mesh. Three entries are a triangle when their vertices differ.
+template <class Visit>
+void for_each_triangle(const LevelView& level, Visit&& visit);
+
 /// One level of a progressive mesh while it is refined: the decoding state machine.
 /// [spec/vsplit.md §3; Kim04 §3.2]
 ///
 /// Refers to the mesh, which must outlive it and may grow (a StreamDecoder appends packets). Its
 /// records must be safe, as both readers guarantee: parents, reassigned wedges and map offsets in
-/// range, no map offset that of a restart, every chain of the base map ending at a wedge.
+/// range, no map offset that of a restart, every chain of the base map ending at a wedge; of a map
+/// of triangles, new corners in range and a group for each triangle, or none at all.
 class Level {
  public:
   /// The base. Cost O(base and map size).
@@ -59,7 +65,8 @@ class Level {
 
   /// A vertex for each wedge; empty with single wedges.
   std::span<const Index> wedge_vertices() const { return state_.wedge_vertices(); }
-  /// The index map with every symbol replaced by its wedge; restarts stay.
+  /// The index map with every symbol replaced by its wedge; restarts stay. Of a map of triangles
+  /// as much as the level has, three wedges each.
   std::span<const Index> resolved() const { return state_.resolved(); }
   /// Position bytes of all vertices of the level, one element each.
   ByteView positions() const;
@@ -99,11 +106,32 @@ inline Result<Mesh> mesh_of(const Level& level) { return mesh_of(level.view()); 
 /// Precondition: the lists of `order` are permutations of the right sizes.
 Mesh restore_order(const Mesh& decoded, const OriginalOrder& order);
 
-/// Strip bounds of an index map: first entry and one past the last of every strip (restarts
-/// excluded), empty strips left out.
+/// Strip bounds of an index map, not of triangles: first entry and one past the last of every strip
+/// (restarts excluded), empty strips left out.
 struct StripRange {
   Index first, end;
 };
 std::vector<StripRange> strip_ranges(std::span<const Index> map);
+
+template <class Visit>
+void for_each_triangle(const LevelView& level, Visit&& visit) {
+  const ProgressiveMesh& mesh = *level.mesh;
+  const auto vertex_of = [&](Index wedge) { return level.vertex_of(wedge); };
+  if (mesh.encoding == MapEncoding::triangles) {
+    for (std::size_t i = 0; i + 2 < level.resolved.size(); i += 3) {
+      const Index a = level.resolved[i], b = level.resolved[i + 1], c = level.resolved[i + 2];
+      const Index va = vertex_of(a), vb = vertex_of(b), vc = vertex_of(c);
+      if (va != vb && vb != vc && va != vc)
+        visit(a, b, c, mesh.triangle_group.empty() ? 0 : mesh.triangle_group[i / 3]);
+    }
+    return;
+  }
+  std::size_t first = 0;
+  for (Index group = 0; group < mesh.group_entries.size(); ++group) {
+    for_each_triangle(level.resolved.subspan(first, mesh.group_entries[group]), vertex_of,
+                      [&](Index a, Index b, Index c) { visit(a, b, c, group); });
+    first += mesh.group_entries[group];
+  }
+}
 
 }  // namespace pstrips::inline codecs

@@ -44,7 +44,8 @@ struct State {
   std::vector<Index> wedge_vertex;
   std::vector<Index> map;
   Index vertices = 0;
-  std::size_t offset_count = 0, reassigned = 0, map_offset = 0;  ///< list elements used
+  /// List elements used.
+  std::size_t offset_count = 0, reassigned = 0, map_offset = 0, new_corner = 0;
 };
 
 State base_state(const ProgressiveMesh& mesh) {
@@ -78,6 +79,7 @@ void apply(State& s, const ProgressiveMesh& mesh, std::size_t record) {
     for (Index n = mesh.wedge_offset_counts[s.offset_count++]; n > 0; --n)
       s.map[mesh.map_offsets[s.map_offset++]] = wedge;
   }
+  for (Index n = 3 * split.triangles; n > 0; --n) s.map.push_back(mesh.new_corners[s.new_corner++]);
 }
 
 struct Triangle {
@@ -86,7 +88,12 @@ struct Triangle {
   std::size_t entry;  ///< of its first corner in the map
 };
 
-std::vector<Triangle> triangles_of(const State& s) {
+bool have_distinct_vertices(const State& s, const std::array<Index, 3>& c) {
+  const Index a = s.wedge_vertex[c[0]], b = s.wedge_vertex[c[1]], d = s.wedge_vertex[c[2]];
+  return a != b && b != d && a != d;
+}
+
+std::vector<Triangle> triangles_of_strips(const State& s) {
   const std::vector<Index> map = resolve(s.map).value();
   std::vector<Triangle> out;
   std::size_t begin = 0, strip = 0;
@@ -94,14 +101,23 @@ std::vector<Triangle> triangles_of(const State& s) {
     if (end < map.size() && map[end] != kRestart) continue;
     for (std::size_t i = begin; i + 2 < end; ++i) {
       std::array<Index, 3> c = {map[i], map[i + 1], map[i + 2]};
-      const Index a = s.wedge_vertex[c[0]], b = s.wedge_vertex[c[1]], d = s.wedge_vertex[c[2]];
-      if (a == b || b == d || a == d) continue;
+      if (!have_distinct_vertices(s, c)) continue;
       if ((i - begin) % 2 == 1) std::swap(c[0], c[1]);
       out.push_back({c, strip, i});
     }
     begin = end + 1;
     ++strip;
   }
+  return out;
+}
+
+/// Of a map of triangles each is a strip of its own.
+std::vector<Triangle> triangles_of(const State& s, const ProgressiveMesh& mesh) {
+  if (mesh.encoding != MapEncoding::triangles) return triangles_of_strips(s);
+  std::vector<Triangle> out;
+  for (std::size_t i = 0; i < s.map.size(); i += 3)
+    if (const std::array c{s.map[i], s.map[i + 1], s.map[i + 2]}; have_distinct_vertices(s, c))
+      out.push_back({c, i / 3, i});
   return out;
 }
 
@@ -113,6 +129,8 @@ Index strips_with_triangles(const std::vector<Triangle>& triangles) {
 }
 
 Index group_at(const ProgressiveMesh& mesh, std::size_t entry) {
+  if (mesh.encoding == MapEncoding::triangles)
+    return mesh.triangle_group.empty() ? 0 : mesh.triangle_group[entry / 3];
   Index group = 0;
   for (std::size_t end = mesh.group_entries[0]; entry >= end; end += mesh.group_entries[++group]) {
   }
@@ -120,8 +138,8 @@ Index group_at(const ProgressiveMesh& mesh, std::size_t entry) {
 }
 
 /// Sets the counts of a level from a decoded state.
-void count_level(const State& s, Packet& level) {
-  const std::vector<Triangle> triangles = triangles_of(s);
+void count_level(const State& s, const ProgressiveMesh& mesh, Packet& level) {
+  const std::vector<Triangle> triangles = triangles_of(s, mesh);
   level.vertices = s.vertices;
   level.triangles = static_cast<Index>(triangles.size());
   level.strips = strips_with_triangles(triangles);
@@ -150,6 +168,7 @@ void make_base(RandomSource& random, const ProgressiveOptions& options, Progress
   if (mesh.base_wedges == 0) return;
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     if (mesh.groups[g].kind != FaceKind::polygons) continue;
+    if (mesh.encoding == MapEncoding::triangles) continue;
     const std::size_t before = mesh.base_map.size();
     for (Index n = 1 + random.below(3); n > 0; --n) {
       if (!mesh.base_map.empty()) mesh.base_map.push_back(kRestart);
@@ -169,6 +188,27 @@ void make_base(RandomSource& random, const ProgressiveOptions& options, Progress
     mesh.group_entries[g] += static_cast<Index>(entries - (g > 0 ? 1 : 0));
     if (g > 0) ++mesh.group_entries[g - 1];
   }
+}
+
+/// Appends up to `most` triangles of distinct vertices; returns how many.
+Index append_triangles(RandomSource& random, const std::vector<Index>& wedge_vertex, Index most,
+                       std::vector<Index>& corners, ProgressiveMesh& mesh) {
+  Index added = 0;
+  for (Index n = wedge_vertex.empty() ? 0 : most; n > 0; --n) {
+    const std::array<Index, 3> c = {random.below(wedge_vertex.size()),
+                                    random.below(wedge_vertex.size()),
+                                    random.below(wedge_vertex.size())};
+    const Index a = wedge_vertex[c[0]], b = wedge_vertex[c[1]], d = wedge_vertex[c[2]];
+    if (a == b || b == d || a == d) continue;
+    corners.insert(corners.end(), c.begin(), c.end());
+    Index group = 0;
+    do group = random.below(mesh.groups.size());
+    while (mesh.groups[group].kind != FaceKind::polygons);
+    if (mesh.groups.size() > 1) mesh.triangle_group.push_back(group);
+    mesh.group_entries[group] += 3;
+    ++added;
+  }
+  return added;
 }
 
 void make_vsplit(RandomSource& random, const State& s, ProgressiveMesh& mesh) {
@@ -207,6 +247,14 @@ void make_vsplit(RandomSource& random, const State& s, ProgressiveMesh& mesh) {
     mesh.map_offsets.insert(mesh.map_offsets.end(), of_wedge.begin(), of_wedge.end());
     split.map_offsets += static_cast<Index>(of_wedge.size());
     for (Attribute& a : mesh.wedge_attributes) random.append(a.data, a.element_bytes());
+  }
+  if (mesh.encoding == MapEncoding::triangles) {
+    std::vector<Index> wedge_vertex = s.wedge_vertex;
+    for (std::size_t r = mesh.reassigned.size() - split.reassigned; r < mesh.reassigned.size(); ++r)
+      wedge_vertex[mesh.reassigned[r]] = s.vertices;
+    wedge_vertex.insert(wedge_vertex.end(), split.wedges, s.vertices);
+    split.triangles =
+        append_triangles(random, wedge_vertex, random.below(4), mesh.new_corners, mesh);
   }
   mesh.vsplits.push_back(split);
 }
@@ -275,11 +323,15 @@ ProgressiveMesh make_mesh(RandomSource& random, const ProgressiveOptions& option
   for (Attribute& a : mesh.wedge_attributes)
     random.append(a.data, a.element_bytes() * mesh.base_wedges);
   State s = base_state(mesh);
+  if (mesh.encoding == MapEncoding::triangles) {
+    append_triangles(random, s.wedge_vertex, 4, mesh.base_map, mesh);
+    s.map = mesh.base_map;
+  }
   for (std::size_t i = 0; i < options.vsplits; ++i) {
     make_vsplit(random, s, mesh);
     apply(s, mesh, i);
   }
-  const std::vector<Triangle> triangles = triangles_of(s);
+  const std::vector<Triangle> triangles = triangles_of(s, mesh);
   mesh.vertices = s.vertices;
   mesh.wedges = static_cast<Index>(s.wedge_vertex.size());
   mesh.triangles = static_cast<Index>(triangles.size());
@@ -374,7 +426,7 @@ Mesh decode_slowly(const ProgressiveMesh& mesh, std::size_t vsplits) {
     a.data.resize(a.element_bytes() * s.wedge_vertex.size());
 
   const bool full = vsplits == mesh.vsplits.size();
-  const std::vector<Triangle> triangles = triangles_of(s);
+  const std::vector<Triangle> triangles = triangles_of(s, mesh);
   out.face_first = {0};
   for (Index t = 0; t < triangles.size(); ++t) {
     if (full && std::ranges::find(mesh.faces.replaced, t) != mesh.faces.replaced.end()) continue;
@@ -398,12 +450,12 @@ Mesh decode_slowly(const ProgressiveMesh& mesh, std::size_t vsplits) {
 void recount_levels(ProgressiveStrips& strips) {
   for (Index m = 0; m < strips.meshes.size(); ++m) {
     State s = base_state(strips.meshes[m]);
-    count_level(s, strips.bases[m]);
+    count_level(s, strips.meshes[m], strips.bases[m]);
     for (Packet& packet : strips.packets) {
       if (packet.mesh != m) continue;
       for (std::size_t i = 0; i < packet.vsplits; ++i)
         apply(s, strips.meshes[m], packet.first_vsplit + i);
-      count_level(s, packet);
+      count_level(s, strips.meshes[m], packet);
     }
   }
 }

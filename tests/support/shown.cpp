@@ -4,15 +4,30 @@
 
 namespace pstrips::test {
 
-std::multiset<std::array<Index, 3>> triangles_of(std::span<const Index> map, const Level& level) {
-  std::multiset<std::array<Index, 3>> out;
+using Shown = std::multiset<std::array<Index, 3>>;
+
+namespace {
+
+void add(std::array<Index, 3> triangle, Shown& shown) {
+  std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+  shown.insert(triangle);
+}
+
+}  // namespace
+
+Shown triangles_of(std::span<const Index> strips, const Level& level) {
+  Shown out;
   for_each_triangle(
-      map, [&](Index w) { return level.vertex_of(w); },
+      strips, [&](Index w) { return level.vertex_of(w); },
       [&](Index a, Index b, Index c) {
-        std::array t{a, b, c};
-        std::ranges::rotate(t, std::ranges::min_element(t));
-        out.insert(t);
+        add({a, b, c}, out);
       });
+  return out;
+}
+
+Shown triangles_of(const Level& level) {
+  Shown out;
+  for_each_triangle(level.view(), [&](Index a, Index b, Index c, Index) { add({a, b, c}, out); });
   return out;
 }
 
