@@ -6,15 +6,15 @@
 namespace pstrips::inline codecs {
 
 std::vector<Index> batches_of(std::span<const Collapse> collapses, Index vertices,
-                              const BatchOptions& options) {
-  std::vector<Index> batch(collapses.size());
+                              const BatchOptions& options, Index most_batches) {
+  std::vector<Index> batch(collapses.size(), kNone);
   std::vector<Index> left(collapses.size());
   std::iota(left.begin(), left.end(), Index{0});
   std::vector<Index> taken(vertices, kNone);  // the last batch in which the vertex stands aside
   const auto share_of = [](double share, Index of) {
     return std::max<std::size_t>(1, static_cast<std::size_t>(share * of));
   };
-  for (Index number = 0; !left.empty(); ++number) {
+  for (Index number = 0; !left.empty() && number < most_batches; ++number) {
     const std::size_t most = share_of(options.batch_share, vertices);
     const std::size_t window = std::min(left.size(), share_of(options.window_share, vertices));
     std::vector<Index> later;

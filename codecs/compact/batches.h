@@ -21,9 +21,11 @@ struct BatchOptions {
 
 /// The batch of each collapse, 0 the finest. In a batch no vertex takes part in two collapses, so
 /// that their order is free; across batches the sequence's order holds wherever two collapses
-/// share a vertex. Cost O(vertices + collapses) for a window of a fixed share.
+/// share a vertex. Cost O(vertices + collapses) a batch.
+///
+/// most  so many batches; collapses for which there is none are in batch kNone
 std::vector<Index> batches_of(std::span<const Collapse> collapses, Index vertices,
-                              const BatchOptions& options);
+                              const BatchOptions& options, Index most = kNone);
 
 /// The collapses of a sequence as a forest: leaves are the vertices of the source, an inner node
 /// is what two vertices became. Node numbers: vertices, then collapses, fine batches first.
