@@ -62,6 +62,29 @@ std::vector<Index> inverse(std::span<const Index> permutation) {
   return out;
 }
 
+// Calls visit(wedges, group), in the order of the map, which is in wedges of the source.
+template <class Visit>
+void for_each_source_triangle(const Mesh& source, const StripMap& map, const ProgressiveMesh& mesh,
+                              Visit&& visit) {
+  const std::span<const Index> entries = map.entries;
+  if (mesh.encoding == MapEncoding::triangles) {
+    for (std::size_t i = 0; i < entries.size(); i += 3)
+      visit(Triple{entries[i], entries[i + 1], entries[i + 2]},
+            mesh.triangle_group.empty() ? 0 : mesh.triangle_group[i / 3]);
+    return;
+  }
+  std::size_t first = 0;
+  for (Index group = 0; group < map.group_entries.size(); ++group) {
+    core::for_each_triangle(
+        entries.subspan(first, map.group_entries[group]),
+        [&](Index wedge) { return source.vertex_of(wedge); },
+        [&](Index a, Index b, Index c) {
+          visit(Triple{a, b, c}, group);
+        });
+    first += map.group_entries[group];
+  }
+}
+
 }  // namespace
 
 FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, const StripMap& strips,
@@ -74,29 +97,21 @@ FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, cons
   for (const Index f : triangles.face) ++pieces[f];
   const auto is_plain = [&](Index f) { return pieces[f] == 1 && source.face(f).size() == 3; };
 
-  // The strips' triangles in map order.
+  // The map's triangles in its order.
   FaceRecord out;
   TriangleFinder finder(source, triangles);
   std::vector<Index> map_triangle(triangles.face.size());  // of each source triangle, in map order
   Index t = 0;
-  std::size_t first = 0;
-  for (Index g = 0; g < strips.group_entries.size(); ++g) {
-    const auto entries = std::span(strips.entries).subspan(first, strips.group_entries[g]);
-    first += strips.group_entries[g];
-    for_each_triangle(
-        entries, [&](Index w) { return source.vertex_of(w); },
-        [&](Index a, Index b, Index c) {
-          const Triple corners{a, b, c};
-          const Index from = finder.take(corners, g);
-          map_triangle[from] = t++;
-          const Index f = triangles.face[from];
-          if (!is_plain(f)) return;
-          out.order.face.push_back(f);
-          const Index start = source.face(f)[0];
-          out.order.rotation.push_back(
-              static_cast<std::uint8_t>(std::ranges::find(corners, start) - corners.begin()));
-        });
-  }
+  for_each_source_triangle(source, strips, recording.mesh, [&](const Triple& corners, Index group) {
+    const Index from = finder.take(corners, group);
+    map_triangle[from] = t++;
+    const Index f = triangles.face[from];
+    if (!is_plain(f)) return;
+    out.order.face.push_back(f);
+    const Index start = source.face(f)[0];
+    out.order.rotation.push_back(
+        static_cast<std::uint8_t>(std::ranges::find(corners, start) - corners.begin()));
+  });
 
   // Everything else, in source order.
   const std::vector<Index> wedge_to = inverse(recording.wedge_from);

@@ -11,11 +11,12 @@ struct FaceRecord {
   OriginalOrder order;
 };
 
-/// Compares the strips' triangles with the faces of the source: fills the table with everything
+/// Compares the map's triangles with the faces of the source: fills the table with everything
 /// that is not one plain triangle, and finds where each vertex, wedge and face came from.
 ///
-/// Preconditions: `strips` holds each triangle of `triangles` once, in its group; `recording` was
-/// made from both. Cost O(map + faces); without the order next to nothing for plain triangles
+/// Preconditions: `strips`, or the triangles that stand in its place in a recording of a map of
+/// triangles, holds each triangle of `triangles` once, in its group; `recording` was made from
+/// both. Cost O(map + faces); without the order next to nothing for plain triangles
 /// without attributes.
 ///
 /// with_order  else `order` stays empty

@@ -22,9 +22,9 @@ struct Recording {
   std::vector<Index> wedge_from;    ///< for each wedge, likewise
 };
 
-/// Full-resolution strips of a mesh, ordered by group.
+/// Full-resolution strips of a mesh, ordered by group; or its triangles, in any order.
 struct StripMap {
-  std::vector<Index> entries;        ///< wedges and restarts, no symbols
+  std::vector<Index> entries;        ///< wedges and restarts, no symbols; or three a triangle
   std::vector<Index> group_entries;  ///< entries of each group of the mesh
 };
 
