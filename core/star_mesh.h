@@ -35,6 +35,10 @@ struct VertexRing {
   std::array<Index, kMaxSize> corner;  ///< the centre's in the face from vertex[i] to the next
 
   unsigned next(unsigned i) const { return i + 1 == size ? 0 : i + 1; }
+  /// From one neighbour on to another; 1 to size - 1 when they differ.
+  unsigned places(unsigned from, unsigned to) const {
+    return to >= from ? to - from : to + size - from;
+  }
 };
 
 /// Triangles as the faces around each vertex, for splits on any complex: a vertex has a list of

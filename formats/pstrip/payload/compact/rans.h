@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/bytes.h"
@@ -11,9 +12,9 @@
 // about -log2(share) bits on it, and the model learns. All arithmetic is on integers of stated
 // width, so that the bytes are the same on every machine. [Duda13]
 //
-// A coder in a template is a RansWriter or a RansReader: both have bit, symbol and raw, which take
-// the value to write (a reader ignores it) and return the value that stands there. So one function
-// says what a record looks like, and the two sides cannot drift apart.
+// A coder in a template is a RansWriter or a RansReader: both have bit, symbol, choice and raw,
+// which take the value to write (a reader ignores it) and return the value that stands there. So
+// one function says what a record looks like, and the two sides cannot drift apart.
 
 namespace pstrips::inline formats {
 
@@ -59,7 +60,12 @@ class SymbolModel {
     return symbol;
   }
   void learn(unsigned symbol) {
-    const int rate = seen_ < 12 ? 4 : seen_ < 40 ? 5 : seen_ < 120 ? 6 : 7;
+    const int rate = seen_ < 4     ? 2
+                     : seen_ < 10  ? 3
+                     : seen_ < 20  ? 4
+                     : seen_ < 50  ? 5
+                     : seen_ < 120 ? 6
+                                   : 7;
     if (seen_ < 120) ++seen_;
     for (unsigned i = 1; i < kSymbols; ++i) {
       const int target = static_cast<int>(i <= symbol ? i : kShares - kSymbols + i);
@@ -72,6 +78,45 @@ class SymbolModel {
   std::array<std::uint16_t, kSymbols> starts_;
   std::uint8_t seen_ = 0;
 };
+
+/// Choices among a few, by weights that somebody else computed: each keeps at least one share.
+class Shares {
+ public:
+  static constexpr unsigned kMost = 64;
+  static constexpr std::uint32_t kLargestWeight = kShares;
+
+  Shares() = default;
+  /// weights  1 to kMost of them, up to kLargestWeight each, one of them that large
+  explicit Shares(std::span<const std::uint32_t> weights);
+
+  unsigned count() const { return count_; }
+  std::uint32_t start(unsigned i) const { return starts_[i]; }
+  std::uint32_t of(unsigned i) const { return starts_[i + 1] - starts_[i]; }
+  /// The choice whose shares hold `share`.
+  unsigned at(std::uint32_t share) const {
+    unsigned i = 0;
+    while (share >= starts_[i + 1]) ++i;
+    return i;
+  }
+
+ private:
+  unsigned count_ = 1;
+  std::array<std::uint32_t, kMost + 1> starts_;
+};
+
+inline Shares::Shares(std::span<const std::uint32_t> weights)
+    : count_(static_cast<unsigned>(weights.size())) {
+  assert(count_ > 0 && count_ <= kMost);
+  std::uint32_t sum = 0;
+  for (const std::uint32_t weight : weights) sum += weight;
+  const std::uint32_t scale = ((kShares - count_) << 16) / sum;
+  std::uint32_t at = 0;
+  for (unsigned i = 0; i < count_; ++i) {
+    starts_[i] = at;
+    at += 1 + (weights[i] * scale >> 16);
+  }
+  starts_[count_] = kShares;  // the last one gets what is left
+}
 
 /// Collects symbols and writes them as one run of bytes.
 class RansWriter {
@@ -91,6 +136,11 @@ class RansWriter {
     assert(value < SymbolModel::kSymbols);
     put(model.start(value), model.end(value) - model.start(value));
     model.learn(value);
+    return value;
+  }
+  /// Precondition: value < shares.count().
+  unsigned choice(const Shares& shares, unsigned value) {
+    put(shares.start(value), shares.of(value));
     return value;
   }
   /// `bits` bits that nothing is known of. Precondition: value < 2^bits, bits <= 32.
@@ -140,6 +190,11 @@ class RansReader {
     const unsigned value = model.at(share());
     take(model.start(value), model.end(value) - model.start(value));
     model.learn(value);
+    return value;
+  }
+  unsigned choice(const Shares& shares, unsigned = 0) {
+    const unsigned value = shares.at(share());
+    take(shares.start(value), shares.of(value));
     return value;
   }
   std::uint32_t raw(std::uint32_t, unsigned bits) {

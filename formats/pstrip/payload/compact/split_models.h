@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "formats/pstrip/payload/compact/chord_weights.h"
 #include "formats/pstrip/payload/compact/rans.h"
 
 namespace pstrips::inline formats {
@@ -50,47 +51,54 @@ class NumberModel {
   std::array<std::array<BitModel, 3>, kLong + 1> leading_;
 };
 
-/// How far along the difference of two sector means a new vertex lies, learned: a fraction in
-/// units of 2^-16.
-class StepModel {
+/// Signed numbers about whose size something is known: the bit length as a symbol, by what is
+/// known; two leading bits, by how the length compares with it; the rest and the sign as they are.
+class ScaledNumberModel {
  public:
-  std::int64_t fraction() const { return fraction_; }
-  /// dot  of the step with the difference of the means; square  of that difference.
-  void learn(std::int64_t dot, std::int64_t square) {
-    constexpr std::int64_t kLargest = std::int64_t{1} << 40;
-    if (square >= kLargest || dot >= kLargest || dot <= -kLargest) return;
-    dots_ += dot;
-    squares_ += square;
-    if (squares_ >= kLargest) {
-      dots_ >>= 1;
-      squares_ >>= 1;
+  /// |value| < 2^30. size  of the values that are expected, in quarter octaves
+  template <class Coder>
+  std::int32_t code(Coder& coder, std::int32_t value, unsigned size) {
+    const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
+    const auto wanted = static_cast<std::uint32_t>(std::bit_width(magnitude));
+    unsigned bits = coder.symbol(lengths_[std::min(size / 3, kSizes - 1)], std::min(wanted, kLong));
+    if (bits == 0) return 0;
+    if (bits == kLong) bits += coder.raw(wanted - kLong, 4);
+    const unsigned relative = 4 * bits + 40 > size ? (4 * bits + 40 - size) / 4 : 0;
+    BitModel* const leading = leading_[bits == 2 ? 1 : 0][std::min(relative, kRelative - 1)].data();
+    std::uint32_t coded = 1;  // the bits so far
+    unsigned left = bits - 1;
+    for (unsigned depth = 0; depth < 2 && left > 0; ++depth) {
+      --left;
+      BitModel& model = leading[depth == 0 ? 0 : coded - 1];
+      coded = coded << 1 | (coder.bit(model, magnitude >> left & 1) ? 1u : 0u);
     }
-    if ((++seen_ & 15) != 0 || squares_ == 0) return;
-    fraction_ =
-        std::clamp(dots_ * (1 << 16) / squares_, std::int64_t{-4 << 16}, std::int64_t{4 << 16});
+    // The rest and the sign, which is last, at once where they fit a step.
+    const std::uint32_t rest = (magnitude & ((1u << left) - 1)) << 1 | (value < 0 ? 1u : 0u);
+    const std::uint32_t last = coder.raw(rest, left + 1);
+    const auto size_of = static_cast<std::int32_t>(coded << left | last >> 1);
+    return (last & 1) != 0 ? -size_of : size_of;
   }
 
  private:
-  std::int64_t dots_ = 0, squares_ = 0, fraction_ = (1 << 16) / 3;
-  unsigned seen_ = 0;
+  static constexpr std::uint32_t kLong = 15;
+  static constexpr unsigned kSizes = 32, kRelative = 32;
+  std::array<SymbolModel, kSizes> lengths_;
+  std::array<std::array<std::array<BitModel, 3>, kRelative>, 2> leading_;
 };
 
 /// All that is learned while the splits of a mesh go by; the same on both sides.
 struct SplitModels {
-  static constexpr unsigned kFaces = 16;    ///< of a vertex, more count as one less than this
-  static constexpr unsigned kSplit = 8;     ///< neighbours split in this batch
-  static constexpr unsigned kRings = 24;    ///< sizes of rings
-  static constexpr unsigned kChoices = 12;  ///< how many chords there are
-  static constexpr unsigned kLeads = 8;     ///< by how much the likeliest chord leads
-  static constexpr unsigned kSectors = 6;
-  static constexpr unsigned kSizes = 64;  ///< half octaves
+  explicit SplitModels(Placement placement) : chord(placement) {}
+
+  static constexpr unsigned kFaces = 16;  ///< of a vertex, more count as one less than this
+  static constexpr unsigned kSplit = 8;   ///< neighbours split in this batch
+  static constexpr unsigned kRings = 24;  ///< sizes of rings
 
   std::array<std::array<std::array<BitModel, kSplit>, kFaces>, 2> splits;  ///< new, faces, seen
   std::array<std::array<SymbolModel, kRings>, 3> sector;  ///< ring closed, open, none; its size
-  std::array<std::array<SymbolModel, kLeads>, kChoices> chord;
-  std::array<std::array<StepModel, kSectors>, 2> step;
-  std::array<std::array<NumberModel, kSizes>, 2> tangential;  ///< first and second
-  std::array<NumberModel, kSizes> normal;
+  ChordWeights chord;
+  std::array<ScaledNumberModel, 2> tangential;  ///< first and second
+  ScaledNumberModel normal;
   // Splits that are no chord of a ring.
   BitModel moves;
   SymbolModel faces;

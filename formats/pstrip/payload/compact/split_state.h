@@ -24,7 +24,7 @@ struct GridSplit {
 
 /// A mesh between two batches, as both sides know it.
 struct SplitState {
-  explicit SplitState(Placement how) : placement(how) {}
+  explicit SplitState(Placement how) : placement(how), models(how) {}
 
   Placement placement;
   StarMesh mesh;
@@ -33,7 +33,7 @@ struct SplitState {
   std::vector<Index> order;
   std::vector<std::uint8_t> is_new;        ///< came into being or split in the batch before
   std::vector<std::uint8_t> split_around;  ///< neighbours split in this batch; stops at 255
-  std::vector<std::uint8_t> normal_error;  ///< half octaves, smoothed
+  std::vector<std::uint8_t> normal_error;  ///< quarter octaves, smoothed
   SplitModels models;
 
   Index add_vertex(GridPoint at) {
