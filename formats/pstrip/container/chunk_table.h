@@ -15,6 +15,7 @@ inline constexpr ChunkType kMeshChunk = chunk_type("MESH");
 inline constexpr ChunkType kIndexChunk = chunk_type("PIDX");
 inline constexpr ChunkType kBaseChunk = chunk_type("BASE");
 inline constexpr ChunkType kPacketChunk = chunk_type("PCKT");
+inline constexpr ChunkType kFineChunk = chunk_type("FINE");
 inline constexpr ChunkType kFacesChunk = chunk_type("fACE");
 inline constexpr ChunkType kOrderChunk = chunk_type("oRDP");
 inline constexpr ChunkType kDigestChunk = chunk_type("dGST");
@@ -44,6 +45,7 @@ inline constexpr ChunkKind kChunkKinds[] = {
     {kIndexChunk, 4, ChunkOf::file, Part::packet_index},
     {kBaseChunk, 5, ChunkOf::mesh, Part::container},
     {kPacketChunk, 6, ChunkOf::packet, Part::container},
+    {kFineChunk, 7, ChunkOf::mesh, Part::fine},
     {kFacesChunk, 7, ChunkOf::mesh, Part::faces},
     {kOrderChunk, 7, ChunkOf::mesh, Part::order},
     {kDigestChunk, 7, ChunkOf::mesh, Part::digest},

@@ -20,6 +20,7 @@ enum class Part : std::uint8_t {
   wedges,       ///< attributes of the new wedges
   reassigned,   ///< wedges taken over
   map_offsets,  ///< index-map offsets
+  fine,         ///< FINE: bits below the cells that packets bring
   faces,        ///< fACE
   order,        ///< oRDP
   digest,       ///< dGST
@@ -35,12 +36,13 @@ enum class PartGroup : std::uint8_t {
   positions,
   wedges,
   base,
+  fine,
   faces,
   order,
   scene,
   container,
 };
-inline constexpr std::size_t kPartGroups = 8;
+inline constexpr std::size_t kPartGroups = 9;
 
 struct PartDescription {
   Part part;
@@ -62,6 +64,7 @@ inline constexpr PartDescription kParts[] = {
     {Part::wedges, "wedges", PartGroup::wedges},
     {Part::reassigned, "reassigned", PartGroup::names_and_offsets},
     {Part::map_offsets, "map_offsets", PartGroup::names_and_offsets},
+    {Part::fine, "fine", PartGroup::fine},
     {Part::faces, "faces", PartGroup::faces},
     {Part::order, "order", PartGroup::order},
     {Part::digest, "digest", PartGroup::container},
@@ -85,6 +88,7 @@ constexpr PartGroupName name_of(PartGroup group) {
       {"positions", "positions"},
       {"wedges", "wedges"},
       {"base", "base"},
+      {"fine", "bits below the cells"},
       {"faces", "faces"},
       {"order", "original order"},
       {"scene", "scene and images"},

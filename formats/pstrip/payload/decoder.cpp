@@ -29,6 +29,7 @@ bool PayloadDecoder::read(const Chunk& chunk, ReadIo& io) {
       {kIndexChunk, &PayloadDecoder::read_index},
       {kBaseChunk, &PayloadDecoder::read_base},
       {kPacketChunk, &PayloadDecoder::read_packet},
+      {kFineChunk, &PayloadDecoder::read_fine},
       {kImageChunk, &PayloadDecoder::read_image},
       {kForeignChunk, &PayloadDecoder::read_foreign},
       {kEndChunk, &PayloadDecoder::read_end},
@@ -251,6 +252,27 @@ bool PayloadDecoder::read_packet(ReadIo& io) {
   return false;
 }
 
+// ---- FINE ----
+
+bool PayloadDecoder::is_in_order(const ChunkType& type, Index mesh) {
+  const auto kind = find_kind(type) - std::begin(kChunkKinds);
+  const std::int64_t number = std::int64_t{mesh} * std::ssize(kChunkKinds) + kind;
+  if (number <= extra_) return refuse(Fault::tail_order);
+  extra_ = number;
+  return true;
+}
+
+bool PayloadDecoder::read_fine(ReadIo& io) {
+  Index mesh = 0;
+  io.number(mesh);
+  if (io.failed()) return io.finish();
+  if (!names_mesh(mesh, Fault::fine_mesh) || !is_in_order(kFineChunk, mesh)) return false;
+  if (!geometry_->needs_fine(mesh)) return refuse(Fault::fine_needed);
+  if (!geometry_->read_fine(io, mesh, strips_.meshes[mesh])) return false;
+  fine_.push_back(mesh);
+  return true;
+}
+
 // ---- What strips cannot say ----
 
 template <class Extra>
@@ -259,11 +281,7 @@ bool PayloadDecoder::read_extra(ReadIo& io, Extra extra) {
   Extra::head_fields(io, head);
   if (io.failed()) return io.finish();
   if (!names_mesh(head.mesh, Extra::kNoSuchMesh)) return false;
-  // They ascend by mesh, then in the order of the table.
-  constexpr auto kKind = find_kind(Extra::kType) - std::begin(kChunkKinds);
-  const std::int64_t number = std::int64_t{head.mesh} * std::ssize(kChunkKinds) + kKind;
-  if (number <= extra_) return refuse(Fault::tail_order);
-  extra_ = number;
+  if (!is_in_order(Extra::kType, head.mesh)) return false;
   if (auto [fault, found] = Extra::broken_head(head); fault != Fault::none)
     return refuse(fault, std::move(found));
   ProgressiveMesh& mesh = strips_.meshes[head.mesh];
@@ -317,6 +335,9 @@ bool PayloadDecoder::read_end(ReadIo& io) {
   if (checks_model()) {
     for (std::size_t m = 0; m < strips_.meshes.size(); ++m) {
       const ProgressiveMesh& mesh = strips_.meshes[m];
+      if (geometry_->needs_fine(static_cast<Index>(m)) &&
+          !std::ranges::binary_search(fine_, static_cast<Index>(m)))
+        return refuse(Fault::fine_needed);
       if (face_count(mesh) != counts_[m].faces) return refuse(Fault::face_count);
       if (mesh.faces.attributes.size() != mesh.face_attribute_formats.size())
         return refuse(Fault::faces_missing);

@@ -57,6 +57,9 @@ class PayloadDecoder {
   bool read_index(ReadIo& io);
   bool read_base(ReadIo& io);
   bool read_packet(ReadIo& io);
+  bool read_fine(ReadIo& io);
+  /// Chunks at the end ascend by mesh, then in the order of the table.
+  bool is_in_order(const ChunkType& type, Index mesh);
   template <class Extra>
   bool read_extra(ReadIo& io, Extra extra);
   bool read_image(ReadIo& io);
@@ -88,6 +91,7 @@ class PayloadDecoder {
   std::vector<std::uint8_t> embedded_;
   std::unique_ptr<GeometryReader> geometry_;
   std::vector<PacketStart> reached_;  ///< per mesh, where its next packet starts
+  std::vector<Index> fine_;           ///< meshes that are complete, ascending
   bool has_index_ = false;
   std::int64_t extra_ = -1, image_ = -1;  ///< the last ones, as numbers that ascend
 

@@ -54,6 +54,8 @@ void PayloadEncoder::plan(const ChunkType& type, std::size_t element) {
     chunk.payload = geometry_->base_bytes(static_cast<Index>(element));
   } else if (type == kPacketChunk) {
     chunk.payload = geometry_->packet_bytes(element);
+  } else if (type == kFineChunk) {
+    chunk.payload = geometry_->fine_bytes(static_cast<Index>(element));
   } else {
     SizeIo size;
     fields(size, chunk);
@@ -83,6 +85,7 @@ bool PayloadEncoder::is_needed(const ChunkType& type, std::size_t element) const
   if (type == kSceneChunk) return !strips_.generator.empty() || !scene.nodes.empty();
   if (type == kMaterialsChunk) return !scene.materials.empty() || !scene.images.empty();
   if (type == kImageChunk) return embedded_[element] != 0;
+  if (type == kFineChunk) return geometry_->fine_bytes(static_cast<Index>(element)) != 0;
   bool needed = true;
   visit_extra(type, [&](auto extra) { needed = extra.is_needed(strips_.meshes[element]); });
   return needed;
@@ -146,6 +149,8 @@ void PayloadEncoder::write(const PlannedChunk& chunk, std::span<std::byte> paylo
   if (chunk.type == kBaseChunk)
     return geometry_->write_base(static_cast<Index>(chunk.element), payload);
   if (chunk.type == kPacketChunk) return geometry_->write_packet(chunk.element, payload);
+  if (chunk.type == kFineChunk)
+    return geometry_->write_fine(static_cast<Index>(chunk.element), payload);
   WriteIo io(payload);
   fields(io, chunk);
 }

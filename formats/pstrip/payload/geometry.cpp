@@ -15,6 +15,9 @@ static_assert(std::ranges::equal(kCodecs, kProfiles, {}, &ProfileCodec::profile,
 
 }  // namespace
 
+bool GeometryReader::needs_fine(Index) const { return false; }
+bool GeometryReader::read_fine(layout::ReadIo&, Index, ProgressiveMesh&) { return false; }
+
 const GeometryCodec& codec_of(Profile profile) {
   return std::ranges::find(kCodecs, profile, &ProfileCodec::profile)->codec();
 }

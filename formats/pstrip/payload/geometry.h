@@ -50,6 +50,12 @@ class GeometryReader {
   /// start  where the lists of the mesh end now
   virtual bool read(layout::ReadIo& io, const PacketHead& head, ProgressiveMesh& mesh,
                     const PacketStart& start) = 0;
+
+  /// Some numbers of the mesh have bits that its packets leave out; FINE brings them.
+  virtual bool needs_fine(Index mesh) const;
+  /// The rest of a FINE: completes the mesh. Precondition: all packets of it are there, and
+  /// needs_fine().
+  virtual bool read_fine(layout::ReadIo& io, Index index, ProgressiveMesh& mesh);
 };
 
 /// How one profile codes the geometry, as far as a decoder is concerned; geometry_layout.h has the

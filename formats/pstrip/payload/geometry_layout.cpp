@@ -17,6 +17,9 @@ static_assert(std::ranges::equal(kLayouts, kProfiles, {}, &ProfileLayout::profil
 
 }  // namespace
 
+std::uint64_t GeometryWriter::fine_bytes(Index) { return 0; }
+void GeometryWriter::write_fine(Index, std::span<std::byte>) {}
+
 const GeometryLayout& layout_of(Profile profile) {
   return std::ranges::find(kLayouts, profile, &ProfileLayout::profile)->layout();
 }

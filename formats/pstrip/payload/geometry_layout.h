@@ -22,6 +22,10 @@ class GeometryWriter {
   /// payload  of that many bytes, all zero
   virtual void write_base(Index mesh, std::span<std::byte> payload) = 0;
   virtual void write_packet(std::size_t packet, std::span<std::byte> payload) = 0;
+
+  /// The payload of FINE; 0: the mesh needs none.
+  virtual std::uint64_t fine_bytes(Index mesh);
+  virtual void write_fine(Index mesh, std::span<std::byte> payload);
 };
 
 /// From here to the next mark, bytes of a payload belong to a part.
