@@ -9,6 +9,22 @@ namespace pstrips::inline formats {
 
 using namespace layout;
 
+namespace {
+
+/// Counts that PIDX leaves out are as if it were right.
+Packet level_of(const IndexRow* row, Index mesh, Index vertices) {
+  Packet level{.mesh = mesh, .vertices = vertices};
+  if (row == nullptr) return level;
+  level.vertices = row->vertices;
+  level.triangles = row->triangles;
+  level.strips = row->strips;
+  level.error = row->error;
+  level.one_sided_error = row->one_sided_error;
+  return level;
+}
+
+}  // namespace
+
 bool PayloadDecoder::decode(const Chunk& chunk) {
   chunk_ = &chunk;
   mesh_ = kNone;
@@ -178,18 +194,6 @@ bool PayloadDecoder::read_index(ReadIo& io) {
 const IndexRow* PayloadDecoder::row() const {
   const std::size_t i = strips_.bases.size() + strips_.packets.size();
   return i < rows_.size() ? &rows_[i] : nullptr;
-}
-
-/// Counts that PIDX leaves out are as if it were right.
-Packet PayloadDecoder::level_of(const IndexRow* row, Index mesh, Index vertices) {
-  Packet level{.mesh = mesh, .vertices = vertices};
-  if (row == nullptr) return level;
-  level.vertices = row->vertices;
-  level.triangles = row->triangles;
-  level.strips = row->strips;
-  level.error = row->error;
-  level.one_sided_error = row->one_sided_error;
-  return level;
 }
 
 // ---- BASE ----

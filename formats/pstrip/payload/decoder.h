@@ -76,7 +76,6 @@ class PayloadDecoder {
   bool names_mesh(Index mesh, Fault otherwise);
   /// What PIDX says of the current BASE or PCKT; null when it says nothing.
   const IndexRow* row() const;
-  static Packet level_of(const IndexRow* row, Index mesh, Index vertices);
 
   Limits limits_;
   PayloadChecks checks_;
