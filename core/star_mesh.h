@@ -47,7 +47,7 @@ struct VertexRing {
 /// same number the same.
 class StarMesh {
  public:
-  Index vertex_count() const { return static_cast<Index>(first_.size()); }
+  Index vertex_count() const { return static_cast<Index>(stars_.size()); }
   Index face_count() const { return static_cast<Index>(vertex_.size() / 3); }
   std::span<const Index> corners() const { return vertex_; }
 
@@ -55,7 +55,7 @@ class StarMesh {
   static Index previous_in_face(Index corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
   Index vertex_of(Index corner) const { return vertex_[corner]; }
-  Index face_count_of(Index vertex) const { return faces_[vertex]; }
+  Index face_count_of(Index vertex) const { return stars_[vertex].faces; }
 
   void reserve(std::size_t vertices, std::size_t faces);
   Index add_vertex();
@@ -81,11 +81,14 @@ class StarMesh {
  private:
   void link(Index corner, Index vertex);
 
-  std::vector<Index> vertex_;        // of each corner
-  std::vector<Index> next_;          // corner of the same vertex
-  std::vector<Index> first_;         // corner of each vertex
-  std::vector<Index> faces_;         // of each vertex
-  mutable std::vector<Index> slot_;  // scratch of ring_of(), checked before it is believed
+  struct Star {
+    Index first;  // corner
+    Index faces;
+    Index slot;  // scratch of ring_of(), checked before it is believed
+  };
+  std::vector<Index> vertex_;  // of each corner
+  std::vector<Index> next_;    // corner of the same vertex
+  mutable std::vector<Star> stars_;
 };
 
 }  // namespace pstrips::inline core

@@ -78,6 +78,12 @@ TEST(RingGeometry, RunsAndWhatTheyLeaveAreSumsOfArms) {
                                   rest = sum(to, size - side + 1);
           ASSERT_EQ(far.sum, rest.sum);
           ASSERT_EQ(far.count, rest.count);
+          RingGeometry::Run moved = near;
+          geometry.move_on(moved, from, r.ring.next(to));
+          const RingGeometry::Run after = sum(r.ring.next(from), side + 1);
+          ASSERT_EQ(moved.sum, after.sum);
+          ASSERT_EQ(moved.lengths, after.lengths);
+          ASSERT_EQ(moved.count, after.count);
         }
     }
 }

@@ -32,9 +32,6 @@ class ChordChoice {
   void see_ends(const SplitState& state, const VertexRing& ring, const RingGeometry& geometry);
   void see_sides(const RingGeometry& geometry);
   Shares weighed(const ChordWeights& weights) const;
-  unsigned end_of(unsigned from) const {
-    return from + side_ < size_ ? from + side_ : from + side_ - size_;
-  }
 
   unsigned size_, side_, chords_;
   Classes end_, faces_;          // of neighbours
@@ -51,7 +48,7 @@ inline unsigned length_class(int length, unsigned mean) {
 /// The length of the mean of a run.
 inline int mean_length(const RingGeometry::Run& run) {
   return static_cast<int>(half_octaves(RingGeometry::square_of(run.sum))) -
-         static_cast<int>(half_octaves(std::uint64_t{run.count} * run.count));
+         kCounts.length[run.count];
 }
 
 /// 2^-(bits / kOneBit) in units of 2^-15, to a quarter percent.
@@ -88,14 +85,17 @@ inline void ChordChoice::see_ends(const SplitState& state, const VertexRing& rin
 
 inline void ChordChoice::see_sides(const RingGeometry& geometry) {
   const unsigned mean = geometry.length();
-  for (unsigned from = 0; from < chords_; ++from) {
-    const RingGeometry::Run near = geometry.run(from, side_ + 1);
-    const RingGeometry::Run far = geometry.rest_of(near, from, end_of(from));
+  RingGeometry::Run near = geometry.run(0, side_ + 1);
+  for (unsigned from = 0, to = side_; from < chords_; ++from) {
+    const RingGeometry::Run far = geometry.rest_of(near, from, to);
     near_[from] = static_cast<std::uint8_t>(length_class(mean_length(near), mean));
     far_[from] = static_cast<std::uint8_t>(length_class(mean_length(far), mean));
     // Twice as fine.
-    const auto lengths = static_cast<int>(2 * near.lengths / near.count);
+    const auto lengths =
+        static_cast<int>(2 * near.lengths * (kCounts.reciprocal[near.count] + 1) >> 16);
     length_[from] = static_cast<std::uint8_t>(length_class(lengths - 4, 2 * mean));
+    to = to + 1 == size_ ? 0 : to + 1;
+    geometry.move_on(near, from, to);
   }
 }
 
@@ -105,8 +105,8 @@ inline Shares ChordChoice::weighed(const ChordWeights& weights) const {
     of_end[i] =
         weights.of(ChordWeights::ends, end_[i]) + weights.of(ChordWeights::faces, faces_[i]);
   std::int32_t most = 0;
-  for (unsigned i = 0; i < chords_; ++i) {
-    bits[i] = of_end[i] + of_end[end_of(i)] + weights.of(ChordWeights::near, near_[i]) +
+  for (unsigned i = 0, to = side_; i < chords_; ++i, to = to + 1 == size_ ? 0 : to + 1) {
+    bits[i] = of_end[i] + of_end[to] + weights.of(ChordWeights::near, near_[i]) +
               weights.of(ChordWeights::far, far_[i]) + weights.of(ChordWeights::length, length_[i]);
     most = i == 0 ? bits[0] : std::max(most, bits[i]);
   }
@@ -116,15 +116,16 @@ inline Shares ChordChoice::weighed(const ChordWeights& weights) const {
 }
 
 inline void ChordChoice::learn(ChordWeights& weights, unsigned chosen) const {
-  std::array<std::int32_t, kSize> slope{};
-  for (unsigned i = 0; i < chords_; ++i) {
+  std::array<std::int32_t, kSize> slope;
+  for (unsigned i = 0; i < size_; ++i) slope[i] = 0;
+  for (unsigned i = 0, to = side_; i < chords_; ++i, to = to + 1 == size_ ? 0 : to + 1) {
     const std::int32_t own = (i == chosen ? static_cast<std::int32_t>(kShares) : 0) -
                              static_cast<std::int32_t>(shares_.of(i));
     weights.learn(ChordWeights::near, near_[i], own);
     weights.learn(ChordWeights::far, far_[i], own);
     weights.learn(ChordWeights::length, length_[i], own);
     slope[i] += own;
-    slope[end_of(i)] += own;
+    slope[to] += own;
   }
   for (unsigned i = 0; i < size_; ++i) {
     weights.learn(ChordWeights::ends, end_[i], slope[i]);

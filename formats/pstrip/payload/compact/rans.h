@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -40,6 +42,9 @@ class BitModel {
   std::uint8_t seen_ = 0;
 };
 
+/// Eight numbers side by side, as the compiler's own vector.
+using Short8 = std::int16_t __attribute__((vector_size(16)));
+
 /// The shares of sixteen symbols, learned; each keeps at least one.
 class SymbolModel {
  public:
@@ -47,17 +52,21 @@ class SymbolModel {
 
   SymbolModel() {
     for (unsigned i = 0; i < kSymbols; ++i)
-      starts_[i] = static_cast<std::uint16_t>(i * (kShares / kSymbols));
+      starts_[i] = static_cast<std::int16_t>(i * (kShares / kSymbols));
   }
-  std::uint32_t start(unsigned symbol) const { return starts_[symbol]; }
+  std::uint32_t start(unsigned symbol) const { return static_cast<std::uint32_t>(starts_[symbol]); }
   std::uint32_t end(unsigned symbol) const {
-    return symbol + 1 == kSymbols ? kShares : starts_[symbol + 1];
+    return symbol + 1 == kSymbols ? kShares : start(symbol + 1);
   }
   /// The symbol whose shares hold `share`.
   unsigned at(std::uint32_t share) const {
-    unsigned symbol = 0;
-    for (unsigned i = 1; i < kSymbols; ++i) symbol += share >= starts_[i] ? 1 : 0;
-    return symbol;
+    const auto limit = static_cast<std::int16_t>(share);
+    const Short8 not_after = (half(0) <= limit) + (half(8) <= limit);  // of two, less than 0
+    std::array<std::uint64_t, 2> lanes;
+    const Short8 counts = -not_after;
+    std::memcpy(&lanes, &counts, sizeof lanes);
+    constexpr std::uint64_t kSumOfLanes = 0x0001'0001'0001'0001;
+    return static_cast<unsigned>((lanes[0] + lanes[1]) * kSumOfLanes >> 48) - 1;
   }
   void learn(unsigned symbol) {
     const int rate = seen_ < 4     ? 2
@@ -67,15 +76,23 @@ class SymbolModel {
                      : seen_ < 120 ? 6
                                    : 7;
     if (seen_ < 120) ++seen_;
-    for (unsigned i = 1; i < kSymbols; ++i) {
-      const int target = static_cast<int>(i <= symbol ? i : kShares - kSymbols + i);
-      starts_[i] = static_cast<std::uint16_t>(starts_[i] +
-                                              ((target - static_cast<int>(starts_[i])) >> rate));
+    constexpr Short8 kIndex = {0, 1, 2, 3, 4, 5, 6, 7};
+    constexpr std::int16_t kRest = kShares - kSymbols;
+    for (const unsigned first : {0u, 8u}) {
+      const Short8 index = kIndex + static_cast<std::int16_t>(first), starts = half(first);
+      const Short8 after = (index > static_cast<std::int16_t>(symbol)) & kRest;
+      const Short8 learned = starts + ((index + after - starts) >> static_cast<std::int16_t>(rate));
+      std::memcpy(&starts_[first], &learned, sizeof learned);
     }
   }
 
  private:
-  std::array<std::uint16_t, kSymbols> starts_;
+  Short8 half(unsigned first) const {
+    Short8 out;
+    std::memcpy(&out, &starts_[first], sizeof out);
+    return out;
+  }
+  std::array<std::int16_t, kSymbols> starts_;  // all below kShares
   std::uint8_t seen_ = 0;
 };
 
@@ -198,13 +215,10 @@ class RansReader {
     return value;
   }
   std::uint32_t raw(std::uint32_t, unsigned bits) {
+    if (bits <= RansWriter::kRawBits) return raw_step(bits);
     std::uint32_t value = 0;
-    for (unsigned at = 0; at < bits; at += RansWriter::kRawBits) {
-      const unsigned n = bits - at < RansWriter::kRawBits ? bits - at : RansWriter::kRawBits;
-      const std::uint32_t part = share() >> (kShareBits - n);
-      take(part << (kShareBits - n), 1u << (kShareBits - n));
-      value |= part << at;
-    }
+    for (unsigned at = 0; at < bits; at += RansWriter::kRawBits)
+      value |= raw_step(std::min(bits - at, RansWriter::kRawBits)) << at;
     return value;
   }
 
@@ -215,6 +229,11 @@ class RansReader {
   bool overrun() const { return overrun_; }
 
  private:
+  std::uint32_t raw_step(unsigned bits) {
+    const std::uint32_t part = share() >> (kShareBits - bits);
+    take(part << (kShareBits - bits), 1u << (kShareBits - bits));
+    return part;
+  }
   std::uint32_t share() const { return state_ & (kShares - 1); }
   void take(std::uint32_t start, std::uint32_t shares) {
     state_ = shares * (state_ >> kShareBits) + share() - start;

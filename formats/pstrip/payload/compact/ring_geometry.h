@@ -7,6 +7,20 @@
 
 namespace pstrips::inline formats {
 
+/// Of how many neighbours a sum is, for its mean.
+struct CountTable {
+  std::array<std::uint32_t, VertexRing::kMaxSize + 2> reciprocal{};  ///< 2^16 / n, rounded down
+  std::array<std::uint8_t, VertexRing::kMaxSize + 2> length{};       ///< quarter octaves
+
+  constexpr CountTable() {
+    for (unsigned n = 1; n < reciprocal.size(); ++n) {
+      reciprocal[n] = (1u << 16) / n;
+      length[n] = static_cast<std::uint8_t>(half_octaves(std::uint64_t{n} * n));
+    }
+  }
+};
+inline constexpr CountTable kCounts;
+
 /// The ring of a vertex as numbers: each neighbour less the centre.
 ///
 /// Widths: differences of points take 25 bits, sums over a ring 31, squares of sums 64 unsigned.
@@ -26,28 +40,31 @@ class RingGeometry {
   unsigned size() const { return size_; }
   bool is_open() const { return open_; }
   bool is_absent(unsigned i) const { return open_ && i + 1 == size_; }
-  GridPoint arm(unsigned i) const { return arm_[i]; }  ///< 0 for an absent neighbour
+  GridPoint arm(unsigned i) const { return {x_[i], y_[i], z_[i]}; }  ///< 0 for an absent neighbour
   unsigned length(unsigned i) const { return length_[i]; }
   unsigned length() const { return mean_length_; }                ///< root of the mean square
   unsigned extent(unsigned axis) const { return extent_[axis]; }  ///< the same along one axis
 
   /// places  1 to the ring's size, at least one of them a neighbour
   Run run(unsigned from, unsigned places) const {
-    const unsigned end = from + places;
-    const bool wraps = end > size_;
-    const Sum& last = sums_[wraps ? end - size_ : end];
-    Run out{last.arms - sums_[from].arms, last.lengths - sums_[from].lengths,
-            places - (open_ && end >= size_ ? 1 : 0)};
-    if (wraps) {
-      out.sum = out.sum + sums_[size_].arms;
-      out.lengths += sums_[size_].lengths;
+    Run out{{}, 0, 0};
+    for (unsigned i = from; places > 0; --places, i = i + 1 == size_ ? 0 : i + 1) {
+      out.sum = out.sum + arm(i);
+      out.lengths += length_[i];
+      out.count += is_absent(i) ? 0 : 1;
     }
     return out;
+  }
+  /// Takes a run one place on: `first` leaves it and `next` joins.
+  void move_on(Run& run, unsigned first, unsigned next) const {
+    run.sum = run.sum - arm(first) + arm(next);
+    run.lengths = run.lengths - length_[first] + length_[next];
+    run.count = run.count + (is_absent(first) ? 1 : 0) - (is_absent(next) ? 1 : 0);
   }
   /// What a run leaves, its two ends included again.
   Run rest_of(const Run& run, unsigned from, unsigned to) const {
     const unsigned absent_ends = (is_absent(from) ? 1 : 0) + (is_absent(to) ? 1 : 0);
-    return {sums_[size_].arms - run.sum + arm_[from] + arm_[to], 0,
+    return {sum_ - run.sum + arm(from) + arm(to), 0,
             size_ - (open_ ? 1 : 0) + 2 - absent_ends - run.count};
   }
 
@@ -57,37 +74,29 @@ class RingGeometry {
   }
 
  private:
-  struct Sum {
-    GridPoint arms;
-    unsigned lengths = 0;
-  };
-
   unsigned size_;
   bool open_;
   unsigned mean_length_ = 0;
   std::array<unsigned, 3> extent_{};
-  std::array<GridPoint, VertexRing::kMaxSize> arm_;
+  std::array<std::int32_t, VertexRing::kMaxSize> x_, y_, z_;  // of the arms
   std::array<std::uint8_t, VertexRing::kMaxSize> length_;
-  std::array<Sum, VertexRing::kMaxSize + 1> sums_;  // of the arms before each
+  GridPoint sum_;
 };
 
 inline RingGeometry::RingGeometry(const SplitState& state, Index vertex, const VertexRing& ring)
     : size_(ring.size), open_(ring.open) {
   const GridPoint centre = state.position[vertex];
   std::array<std::uint64_t, 3> squares{};
-  Sum sum;
-  sums_[0] = sum;
   for (unsigned i = 0; i < size_; ++i) {
-    const bool absent = is_absent(i);
-    const GridPoint arm = absent ? GridPoint{} : state.position[ring.vertex[i]] - centre;
+    const GridPoint arm = is_absent(i) ? GridPoint{} : state.position[ring.vertex[i]] - centre;
     const auto square = [](std::int64_t x) { return static_cast<std::uint64_t>(x * x); };
     const std::array<std::uint64_t, 3> own = {square(arm.x), square(arm.y), square(arm.z)};
     for (unsigned k = 0; k < 3; ++k) squares[k] += own[k];
-    arm_[i] = arm;
+    x_[i] = arm.x;
+    y_[i] = arm.y;
+    z_[i] = arm.z;
     length_[i] = static_cast<std::uint8_t>(half_octaves(own[0] + own[1] + own[2]));
-    sum.arms = sum.arms + arm;
-    sum.lengths += length_[i];
-    sums_[i + 1] = sum;
+    sum_ = sum_ + arm;
   }
   const unsigned count = half_octaves(size_ - (open_ ? 1 : 0));
   const auto mean = [&](std::uint64_t squares_of_all) {

@@ -113,7 +113,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     if (!coder.bit(splits, wanted != nullptr)) continue;
     if (state.mesh.vertex_count() >= limits.vertices)
       return fail(ErrorCode::corrupt, "more vertices than the mesh has");
-    split = wanted ? *wanted : GridSplit{};
+    if (wanted != nullptr) split = *wanted;
     state.mesh.ring_of(vertex, ring);
     const RingGeometry geometry(state, vertex, ring);
     code_chord(coder, state, ring, geometry, split);

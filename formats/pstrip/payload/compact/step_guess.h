@@ -38,8 +38,7 @@ class StepGuess {
 
 /// In sixteenths, 29 bits.
 inline StepGuess::Vector mean_of(const RingGeometry::Run& run) {
-  const auto count = static_cast<std::int64_t>(run.count);
-  const std::int64_t scale = (1 << 16) / count;
+  const std::int64_t scale = kCounts.reciprocal[run.count];
   return {(run.sum.x * scale) >> 12, (run.sum.y * scale) >> 12, (run.sum.z * scale) >> 12};
 }
 
