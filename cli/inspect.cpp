@@ -49,6 +49,18 @@ struct Report {
   }
 };
 
+std::string_view encoding_name(MapEncoding encoding) {
+  switch (encoding) {
+    case MapEncoding::naive:
+      return "naive";
+    case MapEncoding::offset:
+      return "offset";
+    case MapEncoding::triangles:
+      return "triangles";
+  }
+  return "";
+}
+
 std::string describe(const Attribute& a) {
   return fmt::format("{} {}x{}{}", a.semantic, a.count, name_of(a.type),
                      a.normalized ? " normalized" : "");
@@ -75,7 +87,7 @@ void add_strips(Report& report, const ProgressiveStrips& strips,
   if (const auto model = decode(strips)) report.box = bounding_box(*model);
   add_scene(report, strips.scene);
   for (const ProgressiveMesh& mesh : strips.meshes) {
-    report.strips_encoding = mesh.encoding == MapEncoding::naive ? "naive" : "offset";
+    report.strips_encoding = encoding_name(mesh.encoding);
     add_attribute(report, mesh.position);
     for (const Attribute& a : mesh.wedge_attributes) add_attribute(report, a);
     for (const Attribute& a : mesh.face_attribute_formats) add_attribute(report, a);
@@ -142,7 +154,10 @@ Report make_report(const Options& options) {
 void print_heading(std::ostream& out, const Report& r) {
   out << escaped(r.file) << ": " << r.format;
   if (!r.profile.empty())
-    out << ", " << r.profile << " profile, " << r.strips_encoding << " strips";
+    out << ", " << r.profile << " profile, "
+        << (r.strips_encoding == encoding_name(MapEncoding::triangles) ? "derived"
+                                                                       : r.strips_encoding)
+        << " strips";
   if (!r.complete) out << ", ends early";
   out << "\n";
 }

@@ -16,8 +16,11 @@ struct InspectedLevel {
   Index mesh = 0;    ///< whose packet it was
   std::uint64_t bytes_so_far =
       0;  ///< of the file up to the packet's end; 0 where there is no such thing
-  std::uint64_t vertices = 0, triangles = 0, strips = 0;
-  std::uint64_t vertices_sent = 0;  ///< by the degenerate-triangle-free display strips [Kim04 §4]
+  std::uint64_t vertices = 0, triangles = 0;
+  std::uint64_t strips = 0;  ///< of the map; of a map of triangles those that are derived
+  /// By the degenerate-triangle-free display strips [Kim04 §4], or by those that are derived. These
+  /// may be the ones of a level that lacks a 64th of the triangles.
+  std::uint64_t vertices_sent = 0;
   double error = 0, one_sided_error = 0;  ///< of the scene, see SceneLevel
 };
 
@@ -27,7 +30,8 @@ struct Inspection {
   std::uint64_t map_entries = 0, map_offsets = 0;
   double places_per_vsplit = 0;  ///< u of [Kim04 §5]
   std::vector<InspectedLevel> levels;
-  /// Strips by the number of their map entries: 3, 4 to 7, 8 to 15, 16 to 31 …
+  /// Strips of the map, or those derived of the last level, by the number of their entries: 3, 4 to
+  /// 7, 8 to 15, 16 to 31 …
   std::vector<std::uint64_t> strip_lengths;
 };
 

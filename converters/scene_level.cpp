@@ -78,10 +78,12 @@ std::vector<double> instance_scales(const Scene& scene, std::size_t meshes) {
 
 SceneLevel::SceneLevel(const ProgressiveStrips& strips)
     : scale_(instance_scales(strips.scene, strips.meshes.size())), now_(strips.bases) {
+  for (const ProgressiveMesh& mesh : strips.meshes)
+    has_strips_.push_back(mesh.encoding != MapEncoding::triangles);
   for (Index m = 0; m < now_.size(); ++m) {
     vertices_ += now_[m].vertices;
     triangles_ += now_[m].triangles;
-    strips_ += now_[m].strips;
+    strips_ += strips_of(now_[m]);
     push(errors_, m);
     push(one_sided_errors_, m);
   }
@@ -91,7 +93,7 @@ void SceneLevel::add(const Packet& packet) {
   Packet& now = now_[packet.mesh];
   vertices_ = vertices_ + packet.vertices - now.vertices;
   triangles_ = triangles_ + packet.triangles - now.triangles;
-  strips_ = strips_ + packet.strips - now.strips;
+  strips_ = strips_ + strips_of(packet) - strips_of(now);
   now = packet;
   push(errors_, packet.mesh);
   push(one_sided_errors_, packet.mesh);

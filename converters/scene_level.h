@@ -30,6 +30,7 @@ class SceneLevel {
 
   std::uint64_t vertices() const { return vertices_; }
   std::uint64_t triangles() const { return triangles_; }
+  /// Of maps of strips; of maps of triangles none.
   std::uint64_t strips() const { return strips_; }
   double error() const { return errors_.largest(); }
   double one_sided_error() const { return one_sided_errors_.largest(); }
@@ -48,6 +49,11 @@ class SceneLevel {
   };
   void push(Errors& errors, Index mesh) const;
 
+  Index strips_of(const Packet& packet) const {
+    return has_strips_[packet.mesh] ? packet.strips : 0;
+  }
+
+  std::vector<bool> has_strips_;  ///< of each mesh: whether its map is one of strips
   std::vector<double> scale_;
   std::vector<Packet> now_;  ///< last packet, or base, of each mesh
   Errors errors_{&Packet::error}, one_sided_errors_{&Packet::one_sided_error};

@@ -25,7 +25,9 @@ Result<void> StreamDecoder::feed(ByteView bytes) {
 
 StreamDecoder::Totals StreamDecoder::totals() const {
   if (!now_) return {};
-  return {now_->vertices(), now_->triangles(), now_->strips(), now_->error()};
+  std::uint64_t strips = now_->strips();
+  for (const DisplayLevel& level : levels_) strips += level.derived_strips();
+  return {now_->vertices(), now_->triangles(), strips, now_->error()};
 }
 
 bool StreamDecoder::update() {

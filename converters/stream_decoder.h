@@ -18,7 +18,8 @@ namespace pstrips::inline converters {
 ///     while (more) { decoder.feed(bytes); if (decoder.update()) draw(decoder); }
 ///
 /// Each call costs what it brings: a packet's vsplits, and the filtering of the strips that they
-/// rewrote. Any prefix of a valid file is shown up to its last whole packet. [spec/container.md §9]
+/// rewrote; where strips are derived, update() takes O(level). Any prefix of a valid file is shown
+/// up to its last whole packet. [spec/container.md §9]
 class StreamDecoder {
  public:
   explicit StreamDecoder(const Limits& limits = {}, Filter filter = Filter::dtfs);
@@ -41,13 +42,15 @@ class StreamDecoder {
 
   /// What the level shows now, all meshes together.
   struct Totals {
-    std::uint64_t vertices = 0, triangles = 0, strips = 0;
-    double error = 0;  ///< see SceneLevel
+    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t strips = 0;  ///< those that are derived as of the last update()
+    double error = 0;          ///< see SceneLevel
   };
   Totals totals() const;
 
-  /// Filters the strips that have changed since the last call. True when there is something new to
-  /// draw: once there is a base, and after each packet.
+  /// Filters the strips that have changed since the last call, or derives those of meshes that have
+  /// changed. True when there is something new to draw: once there is a base, and after each
+  /// packet.
   bool update();
   /// The level of a mesh and its display strips as of the last update().
   /// Precondition: has_base().

@@ -17,198 +17,275 @@ struct Triangles {
   std::span<const Index> corners;
   std::span<const Index> group;  // ascending, or empty
   Index wedge_count;
-
-  Index origin(Index h) const { return corners[h]; }
-  Index target(Index h) const { return corners[next_of(h)]; }
-  bool same_group(Index g, Index h) const { return group.empty() || group[g / 3] == group[h / 3]; }
-  // One past the last triangle of the group of t.
-  Index end_of_group(Index t) const {
-    if (group.empty()) return static_cast<Index>(corners.size() / 3);
-    return static_cast<Index>(std::upper_bound(group.begin() + t, group.end(), group[t]) -
-                              group.begin());
-  }
 };
 
-// The half-edge that each is paired with, or kNone. Half-edges between the same wedges come one
-// after the other in the list of the lower one: each is paired with the last before it when that is
-// free, of its group and runs the other way.
-std::vector<Index> opposites(const Triangles& triangles) {
-  std::vector<Index> out(triangles.corners.size(), kNone);
-  const Grouped<Index> of_lower =
-      group_by(triangles.wedge_count, triangles.corners.size(),
-               [&](Index h) { return std::min(triangles.origin(h), triangles.target(h)); });
-  std::vector<Index> last(triangles.wedge_count, kNone);  // half-edge to each wedge, or from it
-  for (Index low = 0; low < of_lower.keys(); ++low)
-    for (const Index h : of_lower[low]) {
-      const bool rises = triangles.origin(h) == low;
-      const Index high = rises ? triangles.target(h) : triangles.origin(h);
-      const Index other = std::exchange(last[high], h);
-      if (other == kNone) continue;
-      const Index other_low = rises ? triangles.target(other) : triangles.origin(other);
-      if (other_low != low || !triangles.same_group(other, h)) continue;
-      out[h] = other;
-      out[other] = h;
-      last[high] = kNone;
-    }
-  return out;
-}
-
-// Triangles that no strip has yet, of one group after the other.
-class FreeTriangles {
+// The half-edge that each is paired with, or kNone. In the list of a wedge are the half-edges
+// between it and higher ones. Each is paired with the last one before it between the same wedges,
+// if that is not paired yet, of the same group, and runs the other way.
+class Pairing {
  public:
-  explicit FreeTriangles(std::span<const Index> opposite)
-      : opposite_(opposite), neighbors_(opposite.size() / 3) {
-    for (Index h = 0; h < opposite.size(); ++h) neighbors_[h / 3] += opposite[h] != kNone;
-  }
+  explicit Pairing(const Triangles& triangles)
+      : triangles_(triangles), opposite_(triangles.corners.size(), kNone) {}
 
-  // Those of the next group. Precondition: none is free of the groups before.
-  void file(Index first, Index end) {
-    unfiled_ = first;
-    end_ = end;
-    for (Index t = end; t-- > first;)
-      if (neighbors_[t] < filed_.size()) filed_[neighbors_[t]].push_back(t);
-  }
-
-  bool contains(Index t) const { return neighbors_[t] != kTaken; }
-  unsigned neighbors(Index t) const { return neighbors_[t]; }
-
-  void take(Index t) {
-    neighbors_[t] = kTaken;
-    for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-      if (opposite_[h] == kNone) continue;
-      const Index n = opposite_[h] / 3;
-      if (contains(n)) filed_[--neighbors_[n]].push_back(n);
-    }
-  }
-
-  // One of the group with the fewest free neighbours, of these the one that lost a neighbour last.
-  Index lowest() {
-    for (unsigned count = 0; count < filed_.size(); ++count)
-      for (std::vector<Index>& filed = filed_[count]; !filed.empty(); filed.pop_back())
-        if (neighbors_[filed.back()] == count) return filed.back();
-    while (unfiled_ < end_ && !contains(unfiled_)) ++unfiled_;
-    return unfiled_ < end_ ? unfiled_ : kNone;
+  std::vector<Index> run() {
+    const Grouped<Listed> of_lower = group_each<Listed>(triangles_.wedge_count, [&](auto&& visit) {
+      for (Index h = 0; h < triangles_.corners.size(); h += 3) {
+        const Index a = triangles_.corners[h], b = triangles_.corners[h + 1],
+                    c = triangles_.corners[h + 2];
+        visit(std::min(a, b), [&] { return Listed{std::max(a, b), h}; });
+        visit(std::min(b, c), [&] { return Listed{std::max(b, c), h + 1}; });
+        visit(std::min(c, a), [&] { return Listed{std::max(c, a), h + 2}; });
+      }
+    });
+    std::vector<Unpaired> last(
+        triangles_.wedge_count);  // in the lists so far, to each higher wedge
+    for (Index low = 0; low < of_lower.keys(); ++low)
+      for (const auto [high, h] : of_lower[low]) {
+        Unpaired& before = last[high];
+        if (before.low == low && can_pair(before.half_edge, h)) {
+          opposite_[h] = before.half_edge;
+          opposite_[before.half_edge] = h;
+          before.low = kNone;
+        } else {
+          before = {low, h};
+        }
+      }
+    return std::move(opposite_);
   }
 
  private:
-  static constexpr std::uint8_t kTaken = 4;
-  std::span<const Index> opposite_;
-  std::vector<std::uint8_t> neighbors_;      // free ones of each
-  std::array<std::vector<Index>, 3> filed_;  // by free neighbours at that time
-  Index unfiled_ = 0, end_ = 0;              // of the group
+  struct Listed {
+    Index high, half_edge;
+  };
+  struct Unpaired {
+    Index low = kNone, half_edge = kNone;
+  };
+
+  // Precondition: they are between the same wedges.
+  bool can_pair(Index a, Index b) const {
+    return triangles_.corners[a] != triangles_.corners[b] &&
+           (triangles_.group.empty() || triangles_.group[a / 3] == triangles_.group[b / 3]);
+  }
+
+  const Triangles& triangles_;
+  std::vector<Index> opposite_;
 };
 
+// How a triangle is left that was entered over a half-edge: over the next one or the previous one.
+enum Turn : std::uint8_t { kAfter, kBefore, kNoTurn };
+
+constexpr Index exit_of(Index entry, Turn turn) {
+  return turn == kAfter ? next_of(entry) : previous_of(entry);
+}
+
+// A triangle of a spanning tree, with a child at either turn.
+struct Node {
+  static constexpr std::int8_t kImpossible = 100;
+
+  Index entry;
+  std::array<Index, 2> child{};  // nodes; 0: none, for the first node of all is nobody's child
+  // What a link to its parent adds to the cost of a cut there, if the strip ends in this triangle
+  // or goes on to that child.
+  std::int8_t end = 0;
+  std::array<std::int8_t, 2> onward{kImpossible, kImpossible};
+  bool turned_after : 1 = false;  // its parent, to it
+  bool is_linked : 1 = false;     // to its parent
+};
+
+// Spanning trees, depth first, over the neighbour that has fewer free neighbours itself, of two
+// equals over the one at which turns alternate. Nodes stand in the order in which they are reached.
+class Forest {
+ public:
+  explicit Forest(std::span<const Index> opposite)
+      : opposite_(opposite), free_neighbors_(opposite.size() / 3) {
+    for (std::size_t t = 0; t < free_neighbors_.size(); ++t)
+      for (const Index h : opposite.subspan(3 * t, 3))
+        if (h != kNone) ++free_neighbors_[t];
+    nodes_.reserve(free_neighbors_.size());
+  }
+
+  std::vector<Node> grow() {
+    std::vector<Index> open;
+    for (Index root = 0; root < free_neighbors_.size(); ++root) {
+      if (!is_free(root)) continue;
+      open.push_back(reach(entry_of_root(root), kNoTurn));
+      while (!open.empty()) {
+        const Index child = next_child(open.back());
+        if (child == 0)
+          open.pop_back();
+        else
+          open.push_back(child);
+      }
+    }
+    return std::move(nodes_);
+  }
+
+ private:
+  static constexpr std::uint8_t kTaken = 0x80;
+
+  bool is_free(Index t) const { return free_neighbors_[t] < kTaken; }
+  bool is_free_over(Index h) const { return opposite_[h] != kNone && is_free(opposite_[h] / 3); }
+
+  // A half-edge without a free neighbour, so that none is left out, or the first.
+  Index entry_of_root(Index t) const {
+    for (Index h = 3 * t; h < 3 * t + 3; ++h)
+      if (!is_free_over(h)) return h;
+    return 3 * t;
+  }
+
+  Index reach(Index entry, Turn turn) {
+    const Index t = entry / 3;
+    free_neighbors_[t] += kTaken;
+    for (Index h = 3 * t; h < 3 * t + 3; ++h)
+      if (opposite_[h] != kNone) --free_neighbors_[opposite_[h] / 3];
+    nodes_.push_back({.entry = entry, .turned_after = turn == kAfter});
+    return static_cast<Index>(nodes_.size() - 1);
+  }
+
+  // 0: there is none.
+  Index next_child(Index node) {
+    const Index entry = nodes_[node].entry;
+    if (free_neighbors_[entry / 3] == kTaken) return 0;
+    const Index after = next_of(entry), before = previous_of(entry);
+    const bool has_after = is_free_over(after), has_before = is_free_over(before);
+    if (!has_after && !has_before) return 0;  // but a root may have one over `entry`
+    Turn turn = has_after ? kAfter : kBefore;
+    if (has_after && has_before) {
+      const unsigned of_after = free_neighbors_[opposite_[after] / 3],
+                     of_before = free_neighbors_[opposite_[before] / 3];
+      if (of_before < of_after || (of_before == of_after && nodes_[node].turned_after))
+        turn = kBefore;
+    }
+    const Index child = reach(opposite_[exit_of(entry, turn)], turn);
+    nodes_[node].child[turn] = child;
+    return child;
+  }
+
+  std::span<const Index> opposite_;
+  std::vector<std::uint8_t> free_neighbors_;  // of each triangle, and whether it is taken itself
+  std::vector<Node> nodes_;
+};
+
+// Cuts trees into strips: with the least sum of three a strip and one a swap.
 class StripMaker {
  public:
-  StripMaker(const Triangles& triangles, std::span<const Index> opposite)
-      : triangles_(triangles), opposite_(opposite), free_(opposite) {
-    out_.reserve(triangles.corners.size() / 2);
+  StripMaker(std::span<const Index> corners, std::span<const Index> opposite)
+      : corners_(corners), opposite_(opposite), nodes_(Forest(opposite).grow()) {
+    out_.reserve(corners.size() / 2);
   }
 
   DisplayStrips run() {
-    const auto count = static_cast<Index>(triangles_.corners.size() / 3);
-    for (Index first = 0, end; first < count; first = end) {
-      end = triangles_.end_of_group(first);
-      free_.file(first, end);
-      for (Index seed; (seed = free_.lowest()) != kNone;) add_strip(seed);
-    }
+    for (std::size_t node = nodes_.size(); node-- > 0;) weigh(nodes_[node]);
+    for (const Node& node : nodes_)
+      if (!node.is_linked) add_strip(node);
     return std::move(out_);
   }
 
  private:
-  void add_strip(Index seed) {
-    if (!out_.empty()) out_.push_back(kRestart);
-    free_.take(seed);
-    ahead_.clear();
-    behind_.clear();
-    grow(seed, kNone, kNone, ahead_);
-    if (!ahead_.empty()) grow_behind(seed);
-    join();
-    write(seed);
+  static constexpr int kStrip = 3;
+
+  struct Way {
+    int cost;
+    Turn turn;  // kNoTurn: the strip ends
+  };
+  // The way on from a triangle that was entered after a turn; the same turn again is a swap.
+  static Way way_on(const Node& node, Turn turn) {
+    Way best{node.end, kNoTurn};
+    for (const Turn next : {kAfter, kBefore})
+      if (const int cost = node.onward[next] + (next == turn ? 1 : 0); cost < best.cost)
+        best = {cost, next};
+    return best;
+  }
+  int cost_of(Index child, Turn turn) const {
+    return child == 0 ? Node::kImpossible : way_on(nodes_[child], turn).cost;
   }
 
-  // Goes on from triangle t, entered over `entry`; `straight` is the half-edge over which it would
-  // be left without a swap. Either may be kNone.
-  void grow(Index t, Index entry, Index straight, std::vector<Index>& exits) {
-    for (;;) {
-      Index exit = kNone;
-      unsigned least = 0;
-      for (Index h = 3 * t; h < 3 * t + 3; ++h) {
-        if (h == entry || opposite_[h] == kNone) continue;
-        const Index n = opposite_[h] / 3;
-        if (!free_.contains(n)) continue;
-        const unsigned cost = 2 * free_.neighbors(n) + (h != straight ? 1 : 0);
-        if (exit != kNone && least <= cost) continue;
-        exit = h;
-        least = cost;
-      }
-      if (exit == kNone) return;
-      exits.push_back(exit);
-      // Turns alternate; the first may go either way.
-      const bool before = entry != kNone && exit == previous_of(entry);
-      entry = opposite_[exit];
-      t = entry / 3;
-      free_.take(t);
-      straight = before ? next_of(entry) : previous_of(entry);
+  // To which children a triangle is best linked that is cut off from its parent.
+  struct Links {
+    int cost = 0;
+    bool after = false, before = false;
+  };
+  Links links_below(const Node& node) const {
+    const auto [after, before] = node.child;
+    Links best;
+    if (const int cost = cost_of(after, kNoTurn); cost < best.cost) best = {cost, true, false};
+    if (const int cost = cost_of(before, kNoTurn); cost < best.cost) best = {cost, false, true};
+    if (const int cost = cost_of(after, kBefore) + cost_of(before, kAfter); cost < best.cost)
+      best = {cost, true, true};
+    return best;
+  }
+
+  void weigh(Node& node) const {
+    const int cut = kStrip + links_below(node).cost;
+    node.end = static_cast<std::int8_t>(-cut);
+    for (const Turn turn : {kAfter, kBefore})
+      if (node.child[turn] != 0)
+        node.onward[turn] = static_cast<std::int8_t>(cost_of(node.child[turn], turn) - cut);
+  }
+
+  void add_strip(const Node& top) {
+    const Links links = links_below(top);
+    exits_.clear();
+    if (links.after) follow(top, kAfter, links.before ? kBefore : kNoTurn);
+    if (links.before) {
+      reverse();
+      follow(top, kBefore, links.after ? kAfter : kNoTurn);
     }
+    write(top.entry / 3);
   }
 
-  void grow_behind(Index seed) {
-    const Index exit = ahead_[0];
-    Index straight = kNone;
-    if (ahead_.size() > 1)
-      straight = ahead_[1] == previous_of(opposite_[exit]) ? previous_of(exit) : next_of(exit);
-    grow(seed, exit, straight, behind_);
-  }
-
-  // Makes one path of both: `ahead_` from the end of what was behind.
-  void join() {
-    if (behind_.empty()) return;
-    std::ranges::reverse(behind_);
-    for (Index& exit : behind_) exit = opposite_[exit];
-    behind_.insert(behind_.end(), ahead_.begin(), ahead_.end());
-    std::swap(ahead_, behind_);
-  }
-
-  bool swaps_at_start() const {
-    return ahead_.size() > 1 && ahead_[1] != previous_of(opposite_[ahead_[0]]);
+  // Goes down from a node to a child, as if `turn` had been the turn to it.
+  void follow(const Node& top, Turn to, Turn turn) {
+    for (const Node* node = &top; to != kNoTurn;) {
+      exits_.push_back(exit_of(node->entry, to));
+      Node& child = nodes_[node->child[to]];
+      child.is_linked = true;
+      to = way_on(child, turn).turn;
+      turn = to;
+      node = &child;
+    }
   }
 
   void reverse() {
-    std::ranges::reverse(ahead_);
-    for (Index& exit : ahead_) exit = opposite_[exit];
+    std::ranges::reverse(exits_);
+    for (Index& exit : exits_) exit = opposite_[exit];
   }
 
-  void write(Index seed) {
-    if (ahead_.empty()) {
-      for (Index k = 0; k < 3; ++k) out_.push_back(triangles_.corners[3 * seed + k]);
+  // The first turn has to be kBefore, whichever end is the first.
+  bool starts_with_swap() const {
+    return exits_.size() > 1 && exits_[1] != previous_of(opposite_[exits_[0]]);
+  }
+
+  void write(Index triangle) {
+    if (!out_.empty()) out_.push_back(kRestart);
+    if (exits_.empty()) {
+      for (Index h = 3 * triangle; h < 3 * triangle + 3; ++h) out_.push_back(corners_[h]);
       return;
     }
-    if (swaps_at_start()) {
+    if (starts_with_swap()) {
       reverse();
-      if (swaps_at_start()) reverse();
+      if (starts_with_swap()) reverse();
     }
     // The last two entries are the edge that the strip stands on.
-    Index older = triangles_.origin(ahead_[0]), newer = triangles_.target(ahead_[0]);
-    out_.insert(out_.end(), {triangles_.origin(previous_of(ahead_[0])), older, newer});
-    bool before = true;  // the turn that needs no swap
-    for (std::size_t i = 0; i < ahead_.size(); ++i) {
-      const Index entry = opposite_[ahead_[i]];
-      if (i + 1 < ahead_.size() && (ahead_[i + 1] == previous_of(entry)) != before) {
+    Index older = corners_[exits_[0]], newer = corners_[next_of(exits_[0])];
+    out_.insert(out_.end(), {corners_[previous_of(exits_[0])], older, newer});
+    Turn straight = kBefore;
+    for (std::size_t i = 0; i < exits_.size(); ++i) {
+      const Index entry = opposite_[exits_[i]];
+      if (i + 1 < exits_.size() && exits_[i + 1] != exit_of(entry, straight)) {
         out_.push_back(older);
         std::swap(older, newer);
-        before = !before;
+        straight = straight == kBefore ? kAfter : kBefore;
       }
-      out_.push_back(triangles_.origin(previous_of(entry)));
+      out_.push_back(corners_[previous_of(entry)]);
       older = std::exchange(newer, out_.back());
-      before = !before;
+      straight = straight == kBefore ? kAfter : kBefore;
     }
   }
 
-  const Triangles& triangles_;
-  std::span<const Index> opposite_;
-  FreeTriangles free_;
-  std::vector<Index> ahead_, behind_;  // half-edges over which the strip leaves its triangles
+  std::span<const Index> corners_, opposite_;
+  std::vector<Node> nodes_;
+  std::vector<Index> exits_;  // half-edges over which the strip at hand leaves its triangles
   DisplayStrips out_;
 };
 
@@ -230,8 +307,8 @@ DisplayStrips derive_strips(std::span<const Index> corners, std::span<const Inde
                             Index wedge_count) {
   assert(corners.size() % 3 == 0 && (group.empty() || group.size() == corners.size() / 3));
   const Triangles triangles{corners, group, wedge_count};
-  const std::vector<Index> opposite = opposites(triangles);
-  return StripMaker(triangles, opposite).run();
+  const std::vector<Index> opposite = Pairing(triangles).run();
+  return StripMaker(corners, opposite).run();
 }
 
 DisplayStrips derive_strips(const LevelView& level) {

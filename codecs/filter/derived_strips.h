@@ -13,8 +13,9 @@ namespace pstrips::inline codecs {
 ///
 /// returns  each triangle once, with its winding; strips parted by kRestart
 /// cost     O(triangles + wedges), whatever the triangles are; integers only
-/// source   spec/compact.md, "Derived strips"; the walk is that of [Akeley90], without its
-///          lookahead, over fewest free neighbours, and it goes on from both ends
+/// source   spec/compact.md, "Derived strips". Spanning trees cut by dynamic programming as in
+///          [Xiang99], but for the least of indices, and nothing is concatenated: cutting the trees
+///          saves 0.005 to 0.015 indices a triangle beside the walk alone
 DisplayStrips derive_strips(const LevelView& level);
 
 /// The same of triangles given as three wedges each, of distinct vertices, in the order in which

@@ -31,10 +31,13 @@ void DisplayLevel::mark_changed(std::span<const Index> entries) {
   }
 }
 
-std::size_t DisplayLevel::derive() {
+void DisplayLevel::derive() {
   pool_ = derive_strips(level_.view());
   cost_ = display_cost(pool_);
-  return pool_.empty() ? 0 : cost_.restarts + 1;
+}
+
+std::uint64_t DisplayLevel::derived_strips() const {
+  return is_derived() && !pool_.empty() ? cost_.restarts + 1 : 0;
 }
 
 // Entries that follow a written one are in its strip.
@@ -42,7 +45,8 @@ std::size_t DisplayLevel::update() {
   if (is_derived()) {
     if (filtered_to_ == level_.next()) return 0;
     filtered_to_ = level_.next();
-    return derive();
+    derive();
+    return derived_strips();
   }
   changed_.clear();
   mark_changed(level_.offsets_since(filtered_to_));

@@ -28,6 +28,8 @@ class DisplayLevel {
   void append_display(DisplayStrips& out) const;
   /// What they cost, as of the last update(). O(1).
   DisplayCost cost() const;
+  /// How many strips were derived, as of the last update(); 0 of a map of strips. O(1).
+  std::uint64_t derived_strips() const;
 
  private:
   struct Segment {
@@ -36,7 +38,7 @@ class DisplayLevel {
     DisplayCost cost;
   };
   bool is_derived() const { return level_.mesh().encoding == MapEncoding::triangles; }
-  std::size_t derive();
+  void derive();
   void mark_changed(std::span<const Index> entries);
   void refilter(std::size_t strip);
   void compact();
