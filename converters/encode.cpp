@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numeric>
 #include <queue>
 #include <span>
 #include <utility>
 
+#include "codecs/compact/record_batches.h"
 #include "codecs/stripify/stripify.h"
 #include "codecs/triangulate/triangulate.h"
 #include "codecs/vsplit/faces.h"
@@ -15,6 +17,8 @@
 #include "converters/capacity.h"
 #include "converters/level_bounds.h"
 #include "converters/level_cost.h"
+#include "converters/packets.h"
+#include "converters/position_grid.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
 #include "core/equal_elements.h"
@@ -40,6 +44,11 @@ double attribute_weight(std::string_view semantic, const EncodeOptions& options)
   if (semantic.starts_with("COLOR_")) return 0.1;
   return 0;
 }
+
+constexpr double kBaseShare = 0.05;
+
+// Cells that lie around zero show as zero, others as their middle: off by a step on each axis.
+constexpr double kBlur = 1.7320508075688773;
 
 struct AttributeTable {
   std::vector<float> values;
@@ -131,35 +140,23 @@ class SharedProgress {
   bool stopped_ = false;
 };
 
-// `bounds` are by collapses done. What vsplits bring after the last collapse is undone is not
-// drawn.
-Packet packet_at(const Recording& recording, std::span<const ErrorBounds> bounds, Index mesh,
-                 Index first, Index vsplits) {
-  const LevelCounts& level = recording.levels[first + vsplits];
-  const std::size_t collapses = bounds.size() - 1;
-  const ErrorBounds& bound = bounds[collapses - std::min<std::size_t>(collapses, first + vsplits)];
-  return {.mesh = mesh,
-          .first_vsplit = first,
-          .vsplits = vsplits,
-          .vertices = recording.mesh.base_vertices + first + vsplits,
-          .triangles = level.triangles,
-          .strips = level.strips,
-          .error = bound.two_sided,
-          .one_sided_error = bound.one_sided};
-}
+// A recording, and what its packets are made by.
+struct Recorded {
+  Recording recording;
+  std::vector<ErrorBounds> bounds;  // by collapses done, which the vsplits undo from the last on
+  std::vector<Index> batches;       // of vsplits, where these are in batches
+};
 
-// Cuts the vsplits into packets that grow with the mesh, so that each sharpens it by a like share.
-void pack(const Recording& recording, std::span<const ErrorBounds> bounds, Index mesh,
-          const EncodeOptions& options, Encoded& out) {
-  const Index all = static_cast<Index>(recording.mesh.vsplits.size());
-  out.base = packet_at(recording, bounds, mesh, 0, 0);
-  for (Index first = 0; first < all;) {
-    const double wanted = options.packet_growth * (recording.mesh.base_vertices + first);
-    Index size = std::max(options.packet_min, static_cast<Index>(wanted));
-    if (all - first < size + size / 2) size = all - first;  // no dwarf at the end
-    out.packets.push_back(packet_at(recording, bounds, mesh, first, size));
-    first += size;
-  }
+tl::unexpected<Error> interrupted() { return fail(ErrorCode::interrupted, "interrupted"); }
+
+// What makes the recording whole.
+void complete(const Mesh& mesh, const Triangulation& triangles, const StripMap& map,
+              bool keep_order, Recording& recording) {
+  FaceRecord faces = record_faces(mesh, triangles, map, recording, keep_order);
+  recording.mesh.faces = std::move(faces.faces);
+  recording.mesh.order = std::move(faces.order);
+  const Digest sum = digest(mesh_to_decode(mesh, map, recording));
+  recording.mesh.digest.assign(sum.begin(), sum.end());
 }
 
 class Encoder {
@@ -185,6 +182,7 @@ class Encoder {
                     "/meshes/" + std::to_string(m));
       bytes_.push_back(encoding_bytes(size));
     }
+    if (const auto ok = choose_grid(); !ok) return tl::unexpected(ok.error());
     choose_share();
     std::vector<Result<Encoded>> results = encode_meshes(given);
     std::vector<Encoded> encoded;
@@ -197,13 +195,39 @@ class Encoder {
   }
 
  private:
+  bool is_compact() const { return options_.profile == Profile::compact; }
+  bool maps_triangles() const {
+    return is_compact() || options_.encoding == MapEncoding::triangles;
+  }
+  bool is_on_grid() const { return options_.position_bits > 0; }
+
+  Result<void> choose_grid() {
+    if (is_on_grid() && (!is_compact() || options_.position_bits < kMinPositionBits ||
+                         options_.position_bits > kMaxPositionBits))
+      return fail(ErrorCode::bad_argument,
+                  is_compact() ? "position bits are 8 to 24"
+                               : "only the compact profile puts positions on a grid");
+    if (!is_compact()) return {};
+    const auto grid = position_grid(model_, options_.position_bits);
+    if (!grid) return tl::unexpected(grid.error());
+    grid_ = *grid;
+    return {};
+  }
+
   // A total of triangles is shared out in proportion.
   void choose_share() {
-    share_ = options_.base_share;
+    share_ = options_.base_share.value_or(kBaseShare);
     if (!options_.base_triangles) return;
     std::uint64_t all = 0;
     for (const Mesh& mesh : model_.meshes) all += triangulate(mesh).face.size();
     share_ = all ? static_cast<double>(*options_.base_triangles) / static_cast<double>(all) : 0;
+  }
+
+  std::uint64_t base_triangles(std::uint64_t triangles) const {
+    if (options_.base_error) return 0;
+    const auto share = static_cast<std::uint64_t>(share_ * static_cast<double>(triangles));
+    const bool is_default = !options_.base_share && !options_.base_triangles;
+    return is_compact() && is_default ? std::min(share, kCompactBaseTriangles) : share;
   }
 
   // The meshes side by side, the largest first so that none is left for the end; those of which not
@@ -230,59 +254,125 @@ class Encoder {
   }
 
   Result<Encoded> encode_mesh(Index m, const CollapseSequence* given, unsigned threads) {
-    const Mesh& mesh = model_.meshes[m];
-    const auto go_on = [&](std::string_view stage, double done) {
-      return progress_.go_on(stage, m, done);
-    };
-    const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
-    const Triangulation triangles = triangulate(mesh);
-    if (!go_on("simplify", 0)) return interrupted();
-    Encoded out;
-    CollapseSequence chosen;
-    std::vector<ErrorBounds> bounds;
-    if (!given) {
-      const bool by_error = options_.base_error.has_value();
-      const double target = share_ * static_cast<double>(triangles.face.size());
-      chosen = choose_collapses(
-          mesh, triangles, options_,
-          {.target_triangles = by_error ? 0 : static_cast<std::uint64_t>(target),
-           .placement = options_.placement,
-           .metric = options_.metric,
-           .threads = threads},
-          [&](std::string_view stage, double done) { return go_on(stage, 0.5 * done); });
-      if (chosen.stop == SimplifyStop::interrupted) return interrupted();
-      if (by_error) {
-        bounds = level_bounds(mesh, triangles, chosen, *options_.base_error);
-        cut_back(mesh, triangles, *options_.base_error, chosen, bounds);
-      }
-      given = &chosen;
-      out.report = {.mesh = mesh.name,
-                    .triangles = triangles.face.size(),
-                    .base_triangles = chosen.triangles_left,
-                    .stop = chosen.stop,
-                    .refused = chosen.refused,
-                    .forced = chosen.forced};
+    Mesh on_grid;
+    SimplifyReport report;
+    if (is_on_grid()) {
+      on_grid = model_.meshes[m];
+      report.moved = move_to_grid(on_grid, grid_);
     }
-    if (!go_on("bounds", 0.5)) return interrupted();
+    const Mesh& mesh = is_on_grid() ? on_grid : model_.meshes[m];
+    const Triangulation triangles = triangulate(mesh);
+    if (!progress_.go_on("simplify", m, 0)) return interrupted();
+    CollapseSequence sequence;
+    std::vector<ErrorBounds> bounds;
+    if (given) {
+      sequence = *given;
+      if (is_compact() && !sequence.placements.empty())
+        place_in_the_middle(mesh, grid_of(mesh), sequence);
+    } else {
+      sequence = choose(m, mesh, triangles, threads);
+      if (sequence.stop == SimplifyStop::interrupted) return interrupted();
+      if (options_.base_error) {
+        bounds = level_bounds(mesh, triangles, sequence, *options_.base_error);
+        cut_back(mesh, triangles, *options_.base_error, sequence, bounds);
+      }
+    }
+    if (!progress_.go_on("bounds", m, 0.5)) return interrupted();
+    Result<Recorded> recorded =
+        maps_triangles() ? record_triangles(m, mesh, triangles, sequence)
+                         : record_strips(m, mesh, triangles, sequence, std::move(bounds), threads);
+    if (!recorded) return tl::unexpected(recorded.error());
+    Encoded out = packed(m, std::move(recorded).value());
+    if (given) return out;
+    report.mesh = mesh.name;
+    report.triangles = triangles.face.size();
+    report.base_triangles = out.base.triangles;
+    report.stop = sequence.stop;
+    report.refused = sequence.refused;
+    report.forced = sequence.forced;
+    out.report = std::move(report);
+    return out;
+  }
+
+  CollapseSequence choose(Index m, const Mesh& mesh, const Triangulation& triangles,
+                          unsigned threads) {
+    // Middles are between vertices of the mesh, whatever an edge's best place is.
+    CollapseSequence out = choose_collapses(
+        mesh, triangles, options_,
+        {.target_triangles = base_triangles(triangles.face.size()),
+         .placement = is_compact() ? Placement::subset : options_.placement,
+         .metric = options_.metric,
+         .threads = threads},
+        [&](std::string_view stage, double done) { return progress_.go_on(stage, m, 0.5 * done); });
+    if (is_compact() && options_.placement == Placement::optimal)
+      place_in_the_middle(mesh, grid_of(mesh), out);
+    return out;
+  }
+
+  Encoded packed(Index m, Recorded recorded) const {
+    const PositionGrid& grid = recorded.recording.mesh.grid;
+    Encoded out;
+    out.packets = packets_of(recorded.recording, recorded.bounds, m,
+                             {.batches = recorded.batches,
+                              .growth = options_.packet_growth,
+                              .least = options_.packet_min,
+                              .blur = grid.exact ? 0 : kBlur * double{grid.step}});
+    out.base = out.packets.front();
+    out.packets.erase(out.packets.begin());
+    out.mesh = std::move(recorded.recording.mesh);
+    return out;
+  }
+
+  // bounds  of the sequence, unless empty
+  Result<Recorded> record_strips(Index m, const Mesh& mesh, const Triangulation& triangles,
+                                 const CollapseSequence& sequence, std::vector<ErrorBounds> bounds,
+                                 unsigned threads) {
     // Of large meshes one after the other: both together take more memory than all else.
     constexpr std::uint64_t kLargeBytes = 1 << 27;
     Result<Recording> recorded = interrupted();
     parallel_invoke(
         bytes_[m] <= kLargeBytes ? threads : 1,
         [&] {
-          if (bounds.empty()) bounds = level_bounds(mesh, triangles, *given);
+          if (bounds.empty()) bounds = level_bounds(mesh, triangles, sequence);
         },
-        [&] { recorded = record_mesh(m, triangles, *given, threads); });
+        [&] { recorded = record_mesh(m, mesh, triangles, sequence, threads); });
     if (!recorded) return tl::unexpected(recorded.error());
-    pack(*recorded, bounds, m, options_, out);
-    out.mesh = std::move(recorded->mesh);
-    return out;
+    return Recorded{std::move(recorded).value(), std::move(bounds), {}};
   }
 
-  Result<Recording> record_mesh(Index m, const Triangulation& triangles,
+  // Batches put the collapses into another order, whose bounds may be larger: then it takes fewer.
+  Result<Recorded> record_triangles(Index m, const Mesh& mesh, const Triangulation& triangles,
+                                    CollapseSequence& sequence) {
+    if (triangles.corners.size() > kMaxCount)
+      return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
+    constexpr double kStricter = 0.98;  // from time to time, so that it ends soon
+    double most = options_.base_error.value_or(std::numeric_limits<double>::infinity());
+    while (true) {
+      BatchRecording made = record_batches(mesh, triangles, sequence);
+      if (!progress_.go_on("record", m, 0.75)) return interrupted();
+      std::vector<ErrorBounds> bounds = level_bounds(mesh, triangles, made.collapses);
+      if (options_.base_error && bounds.back().two_sided > *options_.base_error) {
+        cut_back(mesh, triangles, most, made.collapses, bounds);
+        sequence.collapses = std::move(made.collapses.collapses);
+        sequence.placements = std::move(made.collapses.placements);
+        sequence.stop = SimplifyStop::max_error;
+        most *= kStricter;
+        continue;
+      }
+      if (is_compact()) made.recording.mesh.grid = grid_of(mesh);
+      complete(mesh, triangles, made.map, options_.keep_order, made.recording);
+      return Recorded{std::move(made.recording), std::move(bounds), std::move(made.batches)};
+    }
+  }
+
+  // Integers are their own grid.
+  PositionGrid grid_of(const Mesh& mesh) const {
+    const ComponentType type = mesh.position.type;
+    return type == ComponentType::f32 || type == ComponentType::f64 ? grid_ : PositionGrid{};
+  }
+
+  Result<Recording> record_mesh(Index m, const Mesh& mesh, const Triangulation& triangles,
                                 const CollapseSequence& sequence, unsigned threads) {
-    const Mesh& mesh = model_.meshes[m];
-    const auto interrupted = [] { return fail(ErrorCode::interrupted, "interrupted"); };
     if (!progress_.go_on("stripify", m, 0.65)) return interrupted();
     const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options,
                                        step_cost_of(mesh, triangles, sequence, threads));
@@ -290,11 +380,7 @@ class Encoder {
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
     if (!progress_.go_on("record", m, 0.85)) return interrupted();
     Recording recording = record(mesh, strips, sequence, options_.encoding);
-    FaceRecord faces = record_faces(mesh, triangles, strips, recording, options_.keep_order);
-    recording.mesh.faces = std::move(faces.faces);
-    recording.mesh.order = std::move(faces.order);
-    const Digest sum = digest(mesh_to_decode(mesh, strips, recording));
-    recording.mesh.digest.assign(sum.begin(), sum.end());
+    complete(mesh, triangles, strips, options_.keep_order, recording);
     return recording;
   }
 
@@ -312,6 +398,7 @@ class Encoder {
   Result<ProgressiveStrips> join(std::vector<Encoded> encoded) const {
     ProgressiveStrips out;
     out.generator = "pstrips";
+    out.profile = options_.profile;
     out.scene = model_.scene;
     for (Index m = 0; m < encoded.size(); ++m) {
       out.bases.push_back(encoded[m].base);
@@ -355,6 +442,7 @@ class Encoder {
   std::vector<std::uint64_t> bytes_;  // that each mesh takes to encode
   const NamedStripifier* stripifier_ = nullptr;
   double share_ = 0;
+  PositionGrid grid_;  // of positions that are floats, in the compact profile
 };
 
 struct JoinedWedges {

@@ -24,7 +24,18 @@ struct AttributeWeight {
 
 inline constexpr std::uint32_t kMaxLevelCost = 100;
 
+/// A base of the compact profile has so many triangles at most, unless told otherwise: about twice
+/// as many as vertices.
+inline constexpr std::uint64_t kCompactBaseTriangles = 400;
+
 struct EncodeOptions {
+  /// In the compact profile maps are of triangles, packets are batches [record_batches()], and
+  /// optimal placement is the middle of two vertices.
+  Profile profile = Profile::plain;
+  /// With the compact profile: positions are moved to a grid of so many bits, see position_grid().
+  /// 0: they stay as they are.
+  unsigned position_bits = 0;
+  /// What follows up to `level_cost` matters only where maps are of strips.
   MapEncoding encoding = MapEncoding::offset;
   std::string stripifier = "best";  ///< a name of stripifiers()
   StripOptions strip_options{};     ///< `stop` may be called by several threads at once
@@ -33,7 +44,9 @@ struct EncodeOptions {
   /// More shortens the strips of coarse levels and lengthens the file; 0 looks at the full mesh
   /// alone. At most kMaxLevelCost.
   std::uint32_t level_cost = 1;
-  double base_share = 0.05;                       ///< of each mesh's triangles that the base keeps
+  /// Of each mesh's triangles that the base keeps. Not given: 0.05, in the compact profile
+  /// kCompactBaseTriangles at most.
+  std::optional<double> base_share{};
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
   std::optional<double> base_error{};  ///< instead: largest Packet::error of it, model units
   Placement placement = Placement::subset;
@@ -43,10 +56,11 @@ struct EncodeOptions {
   /// That a mesh may take, see check_capacity(), and that those encoded side by side may take
   /// together.
   std::uint64_t memory_bytes = Limits{}.memory_bytes;
-  bool keep_order = false;          ///< vertex, wedge and face order of the source
-  double packet_growth = 1.0 / 16;  ///< vertices a packet adds, as a share of those before it
-  Index packet_min = 256;           ///< and at least so many
-  unsigned threads = 0;             ///< to work with; 0: one a core. Results do not depend on it
+  bool keep_order = false;  ///< vertex, wedge and face order of the source
+  /// Vertices a packet adds, as a share of those before it, unless it is a batch …
+  double packet_growth = 1.0 / 16;
+  Index packet_min = 256;  ///< … and at least so many
+  unsigned threads = 0;    ///< to work with; 0: one a core. Results do not depend on it
 };
 
 /// How the collapses of one mesh were chosen.
@@ -55,6 +69,7 @@ struct SimplifyReport {
   std::uint64_t triangles = 0, base_triangles = 0;
   SimplifyStop stop = SimplifyStop::target;
   ConstraintCounts refused, forced;
+  double moved = 0;  ///< how far, at most, a vertex was moved to the grid, model units
 };
 
 /// Turns a model into progressive strips: triangulate, stripify, simplify, record, pack.
@@ -66,9 +81,11 @@ struct SimplifyReport {
 ///
 /// progress is called by several threads, one at a time
 /// reports  one a mesh is added, unless null
-/// errors   bad_argument for an unknown stripifier or an inconsistent mesh or scene, over_limit
-///          for a mesh that check_capacity() refuses (before any work) or that comes to more than
-///          kMaxCount map entries, interrupted
+/// errors   bad_argument for an unknown stripifier, position bits that the profile does not take,
+/// or
+///          an inconsistent mesh or scene; unsupported as position_grid(); over_limit for a mesh
+///          that check_capacity() refuses (before any work) or that comes to more than kMaxCount
+///          map entries; interrupted
 Result<ProgressiveStrips> encode(const Model& model, const EncodeOptions& options,
                                  const Progress& progress = {},
                                  std::vector<SimplifyReport>* reports = nullptr);

@@ -11,7 +11,8 @@ namespace pstrips::inline core {
 /// How the payloads that hold the geometry are coded; all else is common to the profiles. The
 /// values are those that the binary variant stores. [spec/container.md §5.1]
 enum class Profile : std::uint8_t {
-  plain = 0,  ///< fixed-width arrays
+  plain = 0,    ///< fixed-width arrays
+  compact = 1,  ///< batches of splits, predicted and entropy-coded
 };
 
 struct ProfileName {
