@@ -1,5 +1,5 @@
 // What the derived strips of levels cost, as CSV: derived_bench [MODEL …], paths in the folder of
-// models. The map grows in the order of the collapses; the best of five times.
+// models. A row a batch from 1 % of the triangles on; the best of five times.
 
 #include <fmt/format.h>
 
@@ -8,44 +8,32 @@
 #include <limits>
 #include <string>
 
+#include "codecs/compact/record_batches.h"
 #include "codecs/filter/derived_strips.h"
 #include "codecs/filter/restrip.h"
 #include "codecs/simplify/simplify.h"
-#include "codecs/vsplit/record.h"
-#include "tests/support/growing.h"
 #include "tests/support/models.h"
-#include "tests/support/strip_check.h"
 
 namespace pstrips::bench {
 namespace {
 
-constexpr int kPercents[] = {5, 20, 50, 100};  // of the triangles
-
 using Clock = std::chrono::steady_clock;
 
-ProgressiveMesh progressive(const Mesh& mesh) {
-  const test::StripMesh triangles = test::strip_mesh(mesh);
-  StripMap strips;
-  for (std::size_t i = 0; i < triangles.triangles.size(); ++i) {
-    if (i > 0 && i % 3 == 0) strips.entries.push_back(kRestart);
-    strips.entries.push_back(triangles.triangles[i]);
-  }
-  strips.group_entries = {static_cast<Index>(strips.entries.size())};
+BatchRecording batches_of(const Mesh& mesh) {
+  const Triangulation triangles = triangulate(mesh);
+  std::vector<Index> group;
+  for (const Index face : triangles.face) group.push_back(mesh.group_of(face));
   const std::vector<double> positions = positions_as_double(mesh);
   SimplifyInput input;
   input.positions = positions;
   input.wedge_vertex = mesh.wedge_vertex;
-  input.triangles = triangles.triangles;
-  const auto sequence = simplify(input, {.target_triangles = triangles.triangles.size() / 300});
-  return test::growing(record(mesh, strips, sequence, MapEncoding::naive).mesh);
+  input.triangles = triangles.corners;
+  input.group = group;
+  return record_batches(mesh, triangles, simplify(input, {.target_triangles = 200}));
 }
 
-double indices_a_triangle(const DisplayStrips& strips, Index triangles) {
-  return static_cast<double>(strips.size()) / triangles;
-}
-
-void measure(const std::string& model, const Level& level, int percent) {
-  const auto triangles = static_cast<Index>(level.resolved().size() / 3);
+void measure(const std::string& model, const Level& level) {
+  const auto triangles = static_cast<double>(level.resolved().size()) / 3;
   double best = std::numeric_limits<double>::max();
   DisplayStrips strips;
   for (int run = 0; run < 5; ++run) {
@@ -58,18 +46,19 @@ void measure(const std::string& model, const Level& level, int percent) {
     single.insert(single.end(), {a, b, c, kRestart});
   });
   const DisplayStrips slow = restrip(single, level.wedge_vertices());
-  fmt::print("{},{},{},{},{:.4f},{:.1f},{:.4f}\n", model, percent, triangles,
-             display_cost(strips).restarts + 1, indices_a_triangle(strips, triangles),
-             best / triangles, indices_a_triangle(slow, triangles));
+  fmt::print("{},{:.1f},{},{},{:.4f},{:.1f},{:.4f}\n", model,
+             100 * triangles / level.mesh().triangles, triangles, display_cost(strips).restarts + 1,
+             static_cast<double>(strips.size()) / triangles, best / triangles,
+             static_cast<double>(slow.size()) / triangles);
 }
 
 void run(const std::string& model, const Mesh& mesh) {
-  const ProgressiveMesh growing = progressive(mesh);
-  Level level(growing);
-  for (const int percent : kPercents) {
-    while (level.resolved().size() < std::size_t{3} * growing.triangles * percent / 100)
-      level.refine(1);
-    measure(model, level, percent);
+  const BatchRecording batches = batches_of(mesh);
+  Level level(batches.recording.mesh);
+  for (const Index vsplits : batches.batches) {
+    level.refine(vsplits);
+    if (level.resolved().size() > 3 * std::size_t{level.mesh().triangles} / 100)
+      measure(model, level);
   }
 }
 
