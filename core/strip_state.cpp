@@ -28,6 +28,7 @@ StripState::StripState(const ProgressiveMesh& mesh)
   auto resolved = resolve(mesh.base_map);
   assert(resolved);
   resolved_ = std::move(resolved).value();
+  resolved_.reserve(mesh.base_map.size() + mesh.new_corners.size());
   if (mesh.encoding != MapEncoding::offset) return;
   stored_.reserve(mesh.base_map.size() + 2 * kMargin);
   stored_.assign(kMargin, kRestart);
