@@ -294,9 +294,10 @@ void sort_by_group(std::size_t groups, std::vector<Index>& corners, std::vector<
       group_by(groups, group.size(), [&](Index t) { return group[t]; });
   std::vector<Index> sorted;
   sorted.reserve(corners.size());
-  for (const Index t : triangles.elements)
-    sorted.insert(sorted.end(), corners.begin() + 3 * std::ptrdiff_t{t},
-                  corners.begin() + 3 * std::ptrdiff_t{t} + 3);
+  for (const Index t : triangles.elements) {
+    const auto triangle = std::span(corners).subspan(std::size_t{3} * t, 3);
+    sorted.insert(sorted.end(), triangle.begin(), triangle.end());
+  }
   corners = std::move(sorted);
   std::ranges::sort(group);
 }
