@@ -313,12 +313,18 @@ DisplayStrips derive_strips(std::span<const Index> corners, std::span<const Inde
 }
 
 DisplayStrips derive_strips(const LevelView& level) {
+  const bool grouped = level.mesh->groups.size() > 1;
+  std::size_t shown = 0;
+  for_each_triangle(level, [&](Index, Index, Index, Index) { ++shown; });
+  if (!grouped && 3 * shown == level.resolved.size())
+    return derive_strips(level.resolved, {}, level.wedges);
+
   std::vector<Index> corners, group;
-  corners.reserve(level.resolved.size());
+  corners.reserve(3 * shown);
   bool sorted = true;
   for_each_triangle(level, [&](Index a, Index b, Index c, Index g) {
     corners.insert(corners.end(), {a, b, c});
-    if (level.mesh->groups.size() < 2) return;
+    if (!grouped) return;
     sorted &= group.empty() || group.back() <= g;
     group.push_back(g);
   });
