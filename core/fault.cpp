@@ -53,6 +53,7 @@ constexpr Text kTexts[] = {
     {Fault::packet_wedges, "records do not add up to the wedges of their packet"},
     {Fault::packet_offsets, "records do not add up to the map offsets of their packet"},
     {Fault::packet_single_wedges, "single wedges, yet not one new wedge a vsplit"},
+    {Fault::packet_triangles, "records do not add up to the triangles of their packet"},
     {Fault::fine_mesh, "FINE names a mesh past the end"},
     {Fault::fine_needed, "FINE is missing, or of a mesh that has no bits for it"},
     {Fault::fine_length, "FINE does not hold the bits below the cells of its mesh"},
@@ -87,6 +88,9 @@ constexpr Text kTexts[] = {
     {Fault::wedge_vertex, "wedge names a vertex past the end"},
     {Fault::wedge_count, "vsplits do not bring the wedges that the base lacks"},
     {Fault::vsplits_missing, "packets do not bring all vsplits"},
+    {Fault::triangle_entries, "map of triangles has not three entries for each triangle"},
+    {Fault::triangle_growth, "vsplits do not bring the triangles that the base lacks"},
+    {Fault::triangle_group, "triangle names a group past the end"},
     {Fault::face_bounds, "face bounds do not partition the corners"},
     {Fault::face_corner, "face names a wedge past the end"},
     {Fault::face_group, "face names a group past the end"},
@@ -103,8 +107,10 @@ constexpr Text kTexts[] = {
     {Fault::node_mesh, "node names a mesh past the end"},
     {Fault::material_image, "material names an image past the end"},
     {Fault::map_entry, "index map names a wedge past the end"},
-    {Fault::map_symbol, "symbol in a naive index map"},
+    {Fault::map_symbol, "symbol in an index map without symbols"},
     {Fault::symbol_chain, "symbols of the index map do not lead to a wedge of their strip"},
+    {Fault::map_triangles, "map of triangles has a restart or part of a triangle"},
+    {Fault::degenerate_triangle, "triangle of the map has two corners of one vertex"},
     {Fault::xml_malformed, "malformed XML"},
     {Fault::xml_declaration,
      "document type declarations and processing instructions are not allowed"},
@@ -121,7 +127,7 @@ constexpr Text kTexts[] = {
     {Fault::xml_base64, "malformed base64"},
     {Fault::parent_not_there, "vsplit names a parent that is not there"},
     {Fault::isolated_vertex_reassigns, "vertex of its own takes over wedges"},
-    {Fault::isolated_vertex_writes, "vertex of its own has map offsets"},
+    {Fault::isolated_vertex_writes, "vertex of its own changes the map"},
     {Fault::new_vertex_without_wedge, "new vertex has no wedge"},
     {Fault::parent_without_wedge, "parent is left without a wedge"},
     {Fault::reassigned_not_there, "reassigned wedge is not there"},
@@ -132,6 +138,7 @@ constexpr Text kTexts[] = {
     {Fault::offset_twice, "map offset stands twice in a record"},
     {Fault::offset_not_of_parent, "map offset is not that of a wedge of the parent"},
     {Fault::isolated_vertex_moves, "vertex of its own has two positions"},
+    {Fault::corner_not_there, "corner of a new triangle is not there"},
 };
 
 constexpr bool are_in_order() {
@@ -168,12 +175,15 @@ std::string path_of(const Where& where) {
       return in_mesh("/base_wedge_vertex/");
     case Field::base_map:
       return in_mesh("/base_map/");
+    case Field::triangle_group:
+      return in_mesh("/triangle_group/");
     case Field::packet:
       return numbered("/packets/", where.packet);
     case Field::record:
     case Field::parent:
     case Field::reassigned:
     case Field::map_offset:
+    case Field::new_corner:
       return mesh + numbered("/vsplits/", where.record);
     case Field::faces:
     case Field::face_corner:

@@ -49,6 +49,7 @@ enum class Fault : std::uint8_t {
   packet_wedges,
   packet_offsets,
   packet_single_wedges,
+  packet_triangles,
   fine_mesh,
   fine_needed,
   fine_length,
@@ -85,6 +86,9 @@ enum class Fault : std::uint8_t {
   wedge_vertex,
   wedge_count,
   vsplits_missing,
+  triangle_entries,
+  triangle_growth,
+  triangle_group,
   face_bounds,
   face_corner,
   face_group,
@@ -103,6 +107,8 @@ enum class Fault : std::uint8_t {
   map_entry,
   map_symbol,
   symbol_chain,
+  map_triangles,
+  degenerate_triangle,
   // XML.
   xml_malformed,
   xml_declaration,
@@ -131,7 +137,8 @@ enum class Fault : std::uint8_t {
   offset_twice,
   offset_not_of_parent,
   isolated_vertex_moves,
+  corner_not_there,
 };
-inline constexpr Fault kLastFault = Fault::isolated_vertex_moves;
+inline constexpr Fault kLastFault = Fault::corner_not_there;
 
 }  // namespace pstrips::inline core

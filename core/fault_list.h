@@ -28,11 +28,13 @@ enum class Field : std::uint8_t {
   base,    ///< BASE
   base_wedge_vertex,
   base_map,
-  packet,  ///< PCKT `packet` of its mesh
-  record,  ///< vsplit `record` of the packet
+  triangle_group,  ///< `element` is the triangle
+  packet,          ///< PCKT `packet` of its mesh
+  record,          ///< vsplit `record` of the packet
   parent,
   reassigned,  ///< `element` is the index in the packet's list, as below
   map_offset,
+  new_corner,
   faces,  ///< fACE
   face_first,
   face_corner,

@@ -19,16 +19,16 @@ using Check = void(const Document&, Findings&);
 Check totals_summed, base_end, file_bytes, decoder_memory_computed, conformance_computed;
 Check counts_representable, single_wedges_hold, semantics_differ, few_attributes, has_group,
     group_materials_exist, group_entries_summed, counts_of_base, vsplits_fill, strips_fit_map,
-    mesh_wedges_come, packets_hold_vsplits, packets_not_empty;
+    mesh_wedges_come, packets_hold_vsplits, packets_not_empty, triangle_entries_hold;
 Check rows_counted, rows_point_to_chunks, rows_describe_chunks, row_vertices, row_triangles,
     row_strips, errors_finite, errors_fall, one_side_within_both;
 
 // checks_base.cpp: base and index map.
 Check wedge_vertices_exist, vertices_have_wedges, map_wedges_exist, symbols_allowed,
-    symbols_resolve, groups_end_strips, only_polygons_have_strips;
+    symbols_resolve, groups_end_strips, only_polygons_have_strips, triangles_whole;
 
 // checks_result.cpp: the mesh at full resolution.
-Check full_counts_reached;
+Check full_counts_reached, triangle_groups_exist, triangles_of_groups_counted;
 Check face_bounds, face_corners_exist, face_groups_exist, replaced_bounds, replaced_exist,
     replaced_once, replaced_in_group, faces_counted, faces_needed;
 Check order_vertices, order_wedges, order_faces, rotations, digest_matches;

@@ -63,8 +63,19 @@ void symbols_resolve(const Document& doc, Findings& out) {
   });
 }
 
+void triangles_whole(const Document& doc, Findings& out) {
+  for_each_base(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (mesh.encoding != MapEncoding::triangles) return;
+    for (std::size_t i = 0; i < mesh.base_map.size() && !out.full(); ++i)
+      if (mesh.base_map[i] == kRestart) out.add(in_map(m, i), "a restart");
+    if (mesh.base_map.size() % 3 != 0)
+      out.add({.field = Field::base, .mesh = m}, std::to_string(mesh.base_map.size()) + " entries");
+  });
+}
+
 void groups_end_strips(const Document& doc, Findings& out) {
   for_each_base(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (mesh.encoding == MapEncoding::triangles) return;
     std::uint64_t end = 0;
     for (const Index entries : mesh.group_entries) {
       end += entries;

@@ -161,6 +161,16 @@ void strips_fit_map(const Document& doc, Findings& out) {
   }
 }
 
+void triangle_entries_hold(const Document& doc, Findings& out) {
+  for (std::size_t m = 0; m < doc.declared.size(); ++m) {
+    const MeshCounts& c = doc.declared[m];
+    if (doc.strips.meshes[m].encoding != MapEncoding::triangles || c.triangles > kMaxCount)
+      continue;  // M-001
+    const std::uint64_t entries = std::uint64_t{3} * c.triangles;
+    if (c.map_entries != entries) out.add(count_of(m, 4), versus(c.map_entries, entries));
+  }
+}
+
 void few_attributes(const Document& doc, Findings& out) {
   for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
     const ProgressiveMesh& mesh = doc.strips.meshes[m];

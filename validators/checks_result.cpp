@@ -56,6 +56,7 @@ bool has_order(const ProgressiveMesh& mesh) { return mesh.order != OriginalOrder
 /// The group in which each triangle stands.
 std::vector<Index> groups_of_triangles(const ProgressiveMesh& mesh, const Replay& replay) {
   std::vector<Index> out;
+  if (has_triangle_groups(mesh)) return mesh.triangle_group;
   std::size_t first = 0;
   for (std::size_t g = 0; g < mesh.group_entries.size(); ++g) {
     for_each_triangle(
@@ -87,6 +88,33 @@ void full_counts_reached(const Document& doc, Findings& out) {
     };
     compare("triangles", mesh.triangles, is.triangles, 2);
     compare("strips", mesh.strips, is.strips, 3);
+  });
+}
+
+void triangle_groups_exist(const Document& doc, Findings& out) {
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
+    const ProgressiveMesh& mesh = doc.strips.meshes[m];
+    below(mesh.triangle_group, mesh.groups.size(), {.field = Field::triangle_group, .mesh = m},
+          out);
+  }
+}
+
+void triangles_of_groups_counted(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    // The other cases are those of M-016, M-018 and M-019.
+    if (!has_triangle_groups(mesh) || mesh.triangle_group.size() != mesh.triangles ||
+        sum_of_group_entries(mesh) != full_map_entries(mesh))
+      return;
+    std::vector<std::uint64_t> entries(mesh.groups.size());
+    for (const Index group : mesh.triangle_group) {
+      if (group >= entries.size()) return;
+      entries[group] += 3;
+    }
+    for (std::size_t g = 0; g < entries.size(); ++g)
+      if (mesh.group_entries[g] != entries[g])
+        out.add(
+            {.field = Field::group, .mesh = m, .element = g},
+            "says " + std::to_string(mesh.group_entries[g]) + ", is " + std::to_string(entries[g]));
   });
 }
 

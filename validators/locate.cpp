@@ -130,6 +130,8 @@ class Locator {
         return in_base(&mesh.base_wedge_vertex, ", wedge ");
       case Field::base_map:
         return in_base(&mesh.base_map, ", map entry ");
+      case Field::triangle_group:
+        return triangle_group();
       case Field::packet:
         return chunk(at.packets[where_.packet]);
       case Field::record:
@@ -139,6 +141,8 @@ class Locator {
         return in_packet(&mesh.reassigned, i, ", reassigned wedge");
       case Field::map_offset:
         return in_packet(&mesh.map_offsets, i, ", map offset");
+      case Field::new_corner:
+        return in_packet(&mesh.new_corners, i, ", corner of a new triangle");
       case Field::faces:
         return chunk(find(kFacesChunk));
       case Field::face_first:
@@ -170,7 +174,8 @@ class Locator {
 
   Location in_header(const void* target, const std::string& path) const {
     const auto fields = [&](LocateIo& io) {
-      mesh_fields(io, doc_.strips.meshes[where_.mesh], doc_.declared[where_.mesh]);
+      mesh_fields(io, doc_.strips.meshes[where_.mesh], doc_.declared[where_.mesh],
+                  doc_.strips.profile);
     };
     return in_payload(find(kMeshChunk), position_of(target, fields), path);
   }
@@ -180,6 +185,22 @@ class Locator {
   Location in_packet(const void* list, std::uint64_t element, const char* path) const {
     return in_geometry(doc_.mesh_chunks[where_.mesh].packets[where_.packet], list, element,
                        numbered(", vsplit ", where_.record) + path);
+  }
+  /// In the BASE or the PCKT that brings the triangle.
+  Location triangle_group() const {
+    const ProgressiveMesh& mesh = doc_.strips.meshes[where_.mesh];
+    const std::string path = numbered(", group of triangle ", where_.element);
+    std::uint64_t first = 0, end = mesh.base_map.size() / 3;
+    Index chunk = find(kBaseChunk);
+    std::size_t vsplit = 0;
+    for (std::size_t k = 0; end <= where_.element; ++k) {
+      chunk = doc_.mesh_chunks[where_.mesh].packets[k];
+      first = end;
+      const Packet& packet = doc_.strips.packets[doc_.packets_of[where_.mesh][k]];
+      for (const std::size_t last = vsplit + packet.vsplits; vsplit < last; ++vsplit)
+        end += mesh.vsplits[vsplit].triangles;
+    }
+    return in_geometry(chunk, &mesh.triangle_group, where_.element - first, path);
   }
   Location in_geometry(Index number, const void* list, std::uint64_t element,
                        const std::string& path) const {

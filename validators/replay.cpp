@@ -10,19 +10,17 @@ namespace {
 /// How many triangles and strips a map shows, kept up to date entry by entry.
 class ShownCounts {
  public:
-  explicit ShownCounts(const StripState& state)
-      : state_(state), strip_of_(state.resolved().size()), is_triangle_(strip_of_.size()) {
-    Index strip = 0;
-    for (std::size_t i = 0; i < strip_of_.size(); ++i)
-      strip_of_[i] = state.resolved()[i] == kRestart ? strip++ : strip;
-    triangles_of_strip_.resize(std::size_t{strip} + 1);
-    for (std::size_t i = 0; i < strip_of_.size(); ++i) count_window(i);
+  ShownCounts(const StripState& state, MapEncoding encoding)
+      : state_(state), has_whole_triangles_(encoding == MapEncoding::triangles) {
+    for (std::size_t i = 0; i < state.resolved().size(); ++i) add_entry(i);
+    for (std::size_t i = 0; i < state.resolved().size(); ++i) count_window(i);
   }
 
   Shown shown(Index vertices) const { return {vertices, triangles_, strips_}; }
 
   /// Entry `at` shows another wedge or vertex.
   void operator()(std::size_t at) {
+    if (at == strip_of_.size()) add_entry(at);
     for (std::size_t i = at < 2 ? 0 : at - 2; i <= at; ++i) count_window(i);
   }
 
@@ -42,7 +40,15 @@ class ShownCounts {
     }
   }
 
+  void add_entry(std::size_t at) {
+    if (at == 0 || (has_whole_triangles_ && at % 3 == 0)) triangles_of_strip_.push_back(0);
+    strip_of_.push_back(static_cast<Index>(triangles_of_strip_.size() - 1));
+    is_triangle_.push_back(0);
+    if (state_.resolved()[at] == kRestart) triangles_of_strip_.push_back(0);
+  }
+
   bool shows_triangle(std::size_t i) const {
+    if (has_whole_triangles_ && i % 3 != 0) return false;
     const std::span<const Index> map = state_.resolved();
     if (map.size() - i < 3) return false;
     if (map[i] == kRestart || map[i + 1] == kRestart || map[i + 2] == kRestart) return false;
@@ -52,6 +58,7 @@ class ShownCounts {
   }
 
   const StripState& state_;
+  bool has_whole_triangles_;  // each a strip of its own
   std::vector<Index> strip_of_;
   std::vector<std::uint8_t> is_triangle_;  // by first entry
   std::vector<Index> triangles_of_strip_;
@@ -65,7 +72,7 @@ class Records {
       : mesh_(mesh),
         faults_(faults),
         state_(mesh),
-        counts_(state_),
+        counts_(state_, mesh.encoding),
         wedges_of_(mesh.base_vertices + mesh.vsplits.size()),
         vertices_(mesh.base_vertices) {
     for (Index w = 0; w < state_.wedge_count(); ++w) ++wedges_of_[state_.vertex_of(w)];
@@ -75,8 +82,8 @@ class Records {
 
   Replay run(std::span<const Index> packets) {
     Replay out;
-    out.levels.push_back(counts_.shown(vertices_));
-    out.finished = true;
+    out.finished = has_triangles(state_.resolved(), Field::base_map, 0);
+    if (out.finished) out.levels.push_back(counts_.shown(vertices_));
     for (packet_ = 0; packet_ < packets.size() && out.finished; ++packet_) {
       packet_start_ = at_;
       for (record_ = 0; record_ < packets[packet_] && out.finished; ++record_)
@@ -96,13 +103,13 @@ class Records {
     const bool alone = record.parent == record.vertex;
     if (alone && !record.reassigned.empty())
       return broken(Fault::isolated_vertex_reassigns, Field::record);
-    if (alone && !record.map_offsets.empty())
+    if (alone && !(record.map_offsets.empty() && record.new_corners.empty()))
       return broken(Fault::isolated_vertex_writes, Field::record);
     if (alone && moves(record.vertex)) return broken(Fault::isolated_vertex_moves, Field::record);
     ++vertices_;
     const Index first_wedge = state_.wedge_count();
     if (!offsets_hold(record) || !write_offsets(record, first_wedge)) return false;
-    if (!reassign_wedges(record, first_wedge)) return false;
+    if (!reassign_wedges(record, first_wedge) || !append_triangles(record)) return false;
     if (wedges_of_[record.vertex] == 0)
       return broken(Fault::new_vertex_without_wedge, Field::record);
     if (wedges_of_[record.parent] == 0) return broken(Fault::parent_without_wedge, Field::record);
@@ -125,7 +132,7 @@ class Records {
     for (const Index count : record.offset_counts)
       for (const std::size_t first = k, end = k + count; k < end; ++k) {
         const Index offset = record.map_offsets[k];
-        if (offset >= mesh_.base_map.size()) return broken_offset(Fault::offset_past_end, k);
+        if (offset >= state_.resolved().size()) return broken_offset(Fault::offset_past_end, k);
         if (state_.resolved()[offset] == kRestart)
           return broken_offset(Fault::offset_is_restart, k);
         if (k > first && offset <= record.map_offsets[k - 1])
@@ -165,6 +172,29 @@ class Records {
     return true;
   }
 
+  bool append_triangles(const VsplitRecord& record) {
+    const std::span<const Index> corners = record.new_corners;
+    const std::size_t first = at_.new_corner - packet_start_.new_corner;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      if (corners[k] >= state_.wedge_count())
+        return broken(Fault::corner_not_there, Field::new_corner, first + k);
+    if (!has_triangles(corners, Field::new_corner, first)) return false;
+    for (std::size_t k = 0; k < corners.size(); k += 3)
+      state_.append(corners.subspan(k).first<3>(), counts_);
+    return true;
+  }
+
+  /// Of a map of triangles: each has corners of three vertices.
+  bool has_triangles(std::span<const Index> corners, Field field, std::size_t first) {
+    if (mesh_.encoding != MapEncoding::triangles) return true;
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      const Index a = state_.vertex_of(corners[k]), b = state_.vertex_of(corners[k + 1]),
+                  c = state_.vertex_of(corners[k + 2]);
+      if (a == b || b == c || a == c) return broken(Fault::degenerate_triangle, field, first + k);
+    }
+    return true;
+  }
+
   /// Faults of the k-th list element of the record.
   bool broken_offset(Fault fault, std::size_t k) {
     return broken(fault, Field::map_offset, at_.map_offset - packet_start_.map_offset + k);
@@ -173,9 +203,12 @@ class Records {
     return broken(fault, Field::reassigned, at_.reassigned - packet_start_.reassigned + k);
   }
   bool broken(Fault fault, Field field, std::uint64_t element = 0) {
-    Where where{.field = field, .packet = packet_, .record = record_};
+    Where where{.field = field, .element = element};
+    if (field != Field::base_map) {
+      where.packet = packet_;
+      where.record = record_;
+    }
     if (field == Field::parent) where.element = record_;
-    if (field == Field::map_offset || field == Field::reassigned) where.element = element;
     faults_.add(fault, where);
     return false;
   }

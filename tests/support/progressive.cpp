@@ -248,7 +248,7 @@ void make_vsplit(RandomSource& random, const State& s, ProgressiveMesh& mesh) {
     split.map_offsets += static_cast<Index>(of_wedge.size());
     for (Attribute& a : mesh.wedge_attributes) random.append(a.data, a.element_bytes());
   }
-  if (mesh.encoding == MapEncoding::triangles) {
+  if (mesh.encoding == MapEncoding::triangles && !own) {
     std::vector<Index> wedge_vertex = s.wedge_vertex;
     for (std::size_t r = mesh.reassigned.size() - split.reassigned; r < mesh.reassigned.size(); ++r)
       wedge_vertex[mesh.reassigned[r]] = s.vertices;
@@ -404,7 +404,7 @@ ProgressiveStrips random_progressive_of_any_kind(std::uint32_t seed) {
   options.base_vertices = random.below(7);
   options.vsplits = random.below(9);
   options.packet_vsplits = 1 + random.below(4);
-  options.encoding = static_cast<MapEncoding>(random.below(2));
+  options.encoding = static_cast<MapEncoding>(random.below(3));
   options.placement = static_cast<Placement>(random.below(2));
   for (bool* choice : {&options.single_wedges, &options.scene, &options.faces, &options.order,
                        &options.digest, &options.unknown})

@@ -161,6 +161,8 @@ constexpr Case kCases[] = {
      [] { return recut(roof(), [](ChunkFile& f) { f.put("BASE", 0, 1u); }); }},
     {"PS1051_base_vertices.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("BASE", 4, 5u); }); }},
+    {"PS1051_more_entries_than_all.pstrip",
+     [] { return recut(growing(), [](ChunkFile& f) { f.put("BASE", 12, 18u); }); }},
     {"PS1055_packet_of_no_mesh.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PCKT", 0, 1u); }); }},
     {"PS1055_packet_of_no_mesh.pstripx",
@@ -174,6 +176,11 @@ constexpr Case kCases[] = {
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PCKT", kPacketHead + 8, 1u); }); }},
     {"PS1058_two_wedges_for_a_record.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PCKT", 12, 2u); }); }},
+    {"PS1059_triangles_of_a_record.pstrip",
+     [] {
+       // The head of 32 bytes, then parent, wedges, reassigned and offset count of the one record.
+       return recut(growing(), [](ChunkFile& f) { f.put("PCKT", kPacketHead + 8 + 4 * 8, 3u); });
+     }},
     {"PS1060_faces_of_no_mesh.pstrip",
      [] { return recut(seam(), [](ChunkFile& f) { f.put("fACE", 0, 1u); }); }},
     {"PS1061_faces_for_nothing.pstrip",

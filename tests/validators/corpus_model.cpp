@@ -67,6 +67,19 @@ constexpr Case kCases[] = {
      [] {
        return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.base_wedge_vertex[3] = 1; });
      }},
+    {"PS2018_entries_of_triangles.pstrip",
+     [] {
+       ProgressiveStrips strips = growing();
+       strips.meshes[0].group_entries[0] = 12;
+       return recut(strips, [](ChunkFile& f) {
+         f.put("MESH", f.payload("MESH").size() - 20, 18u);
+         f.put("PSHD", 48, std::uint64_t{18});
+       });
+     }},
+    {"PS2019_group_of_a_triangle.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.triangle_group[4] = 2; }); }},
+    {"PS2019_group_of_a_triangle.pstripx",
+     [] { return reworded(growing(), "<triangle_group>0 1", "<triangle_group>0 2"); }},
     {"PS2020_gap_between_packets.pstrip",
      [] {
        // first_vsplit of the second packet
@@ -192,6 +205,8 @@ constexpr Case kCases[] = {
        return edited(scene(),
                      [](ProgressiveStrips& s) { s.scene.foreign[1].key = s.scene.foreign[0].key; });
      }},
+    {"PS2060_triangles_of_a_group.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.triangle_group[0] = 1; }); }},
 
     {"PS3001_entry_past_the_base.pstrip",
      [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.base_map[8] = 4; }); }},
@@ -211,6 +226,15 @@ constexpr Case kCases[] = {
        return edited_mesh(bare_seam(), [](ProgressiveMesh& m) { m.group_entries = {3, 4, 0}; });
      }},
 
+    {"PS3005_restart_among_triangles.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.base_map[3] = kRestart; }); }},
+    {"PS3005_part_of_a_triangle.pstripx",
+     [] { return reworded(growing(), "3 4 1</map>", "3 4 1 0</map>"); }},
+    {"PS3006_two_corners_of_a_vertex.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.base_map[4] = 3; }); }},
+    {"PS3006_new_triangle_degenerate.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.new_corners[1] = 0; }); }},
+
     {"PS4001_parent_not_there_yet.pstrip",
      [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.vsplits[0].parent = 5; }); }},
     {"PS4001_parent_not_there_yet.pstripx",
@@ -228,6 +252,13 @@ constexpr Case kCases[] = {
          m.vsplits[2].map_offsets = 1;
          m.wedge_offset_counts[3] = 1;
          m.map_offsets.push_back(0);
+       });
+     }},
+    {"PS4003_isolated_vertex_brings_a_triangle.pstrip",
+     [] {
+       return edited_mesh(growing(), [](ProgressiveMesh& m) {
+         m.vsplits[1].triangles = 1;
+         m.vsplits[2].triangles = 0;
        });
      }},
     {"PS4005_vertex_without_wedges.pstrip",
@@ -255,6 +286,8 @@ constexpr Case kCases[] = {
      [] { return reworded(bare_seam(), "reassigned=\"1\"", "reassigned=\"3\""); }},
     {"PS4010_offset_past_the_map.pstrip",
      [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.map_offsets[2] = 9; }); }},
+    {"PS4010_offset_of_a_later_triangle.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.map_offsets[0] = 6; }); }},
     {"PS4011_offset_of_a_restart.pstrip",
      [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.map_offsets[2] = 5; }); }},
     {"PS4012_offsets_descend.pstrip",
@@ -271,6 +304,10 @@ constexpr Case kCases[] = {
        return edited_mesh(bare_seam(),
                           [](ProgressiveMesh& m) { m.parent_position.back() ^= std::byte{1}; });
      }},
+    {"PS4016_corner_not_there_yet.pstrip",
+     [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.new_corners[2] = 6; }); }},
+    {"PS4016_corner_not_there_yet.pstripx",
+     [] { return reworded(growing(), "new_triangles=\"2 5 7\"", "new_triangles=\"2 5 8\""); }},
 };
 
 }  // namespace

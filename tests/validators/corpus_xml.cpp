@@ -42,6 +42,18 @@ constexpr Case kCases[] = {
      }},
     {"PS5013_parent_position_missing.pstripx",
      [] { return reworded(bare_seam(), " parent_position=\"-0.5 0\"", ""); }},
+    {"PS5012_part_of_a_new_triangle.pstripx",
+     [] { return reworded(growing(), "new_triangles=\"2 5 7\"", "new_triangles=\"2 5\""); }},
+    {"PS5012_group_of_a_new_triangle_missing.pstripx",
+     [] {
+       return reworded(growing(), "new_triangles=\"2 5 7\" triangle_group=\"0\"",
+                       "new_triangles=\"2 5 7\"");
+     }},
+    {"PS5013_triangles_of_a_map_of_strips.pstripx",
+     [] {
+       return reworded(roof(), "<vsplit parent=\"0\"",
+                       "<vsplit new_triangles=\"0 1 2\" parent=\"0\"");
+     }},
     {"PS5013_values_missing.pstripx", [] { return reworded(bare_seam(), " values=\"5\"", ""); }},
     {"PS5016_digest_twice.pstripx",
      [] {

@@ -117,6 +117,20 @@ TEST(Mutations, BehindACorrectCrcNeverHarm) {
   }
 }
 
+TEST(Mutations, OfMapsOfTrianglesNeverHarm) {
+  Damage damage(4);
+  for (std::uint32_t seed = 0; seed < 200; ++seed) {
+    const ProgressiveStrips strips = test::random_progressive(
+        seed, {.encoding = MapEncoding::triangles, .single_wedges = seed % 2 == 0});
+    const Bytes binary = write_binary(strips).value(), xml = write_xml(strips);
+    for (int i = 0; i < 20; ++i) {
+      SCOPED_TRACE(seed * 100 + static_cast<std::uint32_t>(i));
+      for (const Bytes& damaged : {damage.inside(binary), damage(xml)})
+        expect_agreement(damaged, validate(damaged));
+    }
+  }
+}
+
 TEST(Mutations, OfTheCorpusNeverHarm) {
   Damage damage(3);
   for (const test::CorpusFile& file : test::invalid_corpus()) {

@@ -89,6 +89,39 @@ ProgressiveStrips seam() {
   return strips;
 }
 
+ProgressiveStrips growing() {
+  ProgressiveMesh mesh;
+  mesh.encoding = MapEncoding::triangles;
+  mesh.single_wedges = false;
+  mesh.groups = {{"left", kNone, FaceKind::polygons}, {"right", kNone, FaceKind::polygons}};
+  mesh.group_entries = {9, 6};
+  mesh.position = {"POSITION", ComponentType::f32, 3, false, {}};
+  mesh.position.data = bytes_of({0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f,
+                                 0.f, .5f, .5f, 1.f, 9.f, 9.f, 9.f, .5f, .6f, 1.f});
+  mesh.wedge_attributes = {
+      {"COLOR_0", ComponentType::u8, 1, true, bytes_of<std::uint8_t>({1, 2, 3, 4, 5, 6, 7, 8})}};
+  mesh.base_vertices = 4;
+  mesh.base_wedges = 5;
+  mesh.base_wedge_vertex = {0, 0, 1, 2, 3};
+  mesh.base_map = {2, 3, 0, 3, 4, 1};
+  mesh.vsplits = {{0, 1, 1, 1, 2}, {5, 1, 0, 0}, {4, 1, 0, 1, 1}};
+  mesh.wedge_offset_counts = {1, 0, 1};
+  mesh.map_offsets = {2, 8};
+  mesh.reassigned = {1};
+  mesh.new_corners = {0, 2, 5, 4, 0, 1, 2, 5, 7};
+  mesh.triangle_group = {0, 1, 0, 1, 0};
+  mesh.vertices = 7;
+  mesh.wedges = 8;
+  mesh.triangles = mesh.strips = 5;
+  ProgressiveStrips strips;
+  strips.meshes.push_back(std::move(mesh));
+  strips.bases = {{.error = 0.5f, .one_sided_error = 0.125f}};
+  strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
+                    {.first_vsplit = 1, .vsplits = 2}};
+  recount_levels(strips);
+  return strips;
+}
+
 ProgressiveStrips numbered_faces() {
   ProgressiveStrips strips = roof();
   ProgressiveMesh& mesh = strips.meshes[0];

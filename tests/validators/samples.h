@@ -26,7 +26,11 @@ ProgressiveStrips numbered_faces();
 /// the original order and a digest.
 ProgressiveStrips seam();
 
-/// The same without faces, order and digest.
+/// A map of triangles in two groups, several wedges a vertex: the roof of a square, a seam along
+/// one edge, one more split of the apex, and an isolated vertex.
+ProgressiveStrips growing();
+
+/// The seam without faces, order and digest.
 ProgressiveStrips bare_seam();
 
 /// Two meshes with nodes, a material, images, foreign entries and an unknown chunk.

@@ -17,17 +17,18 @@ enum class Part : std::uint8_t {
   counts,          ///< wedges, reassigned wedges and map offsets of each record
   positions,       ///< of the new vertices
   parent_positions,
-  wedges,       ///< attributes of the new wedges
-  reassigned,   ///< wedges taken over
-  map_offsets,  ///< index-map offsets
-  fine,         ///< FINE: bits below the cells that packets bring
-  faces,        ///< fACE
-  order,        ///< oRDP
-  digest,       ///< dGST
-  scene,        ///< sCNE, mTRL
-  images,       ///< iMGE
-  foreign,      ///< fRGN
-  unknown,      ///< chunks that this build does not know
+  wedges,         ///< attributes of the new wedges
+  reassigned,     ///< wedges taken over
+  map_offsets,    ///< index-map offsets
+  new_triangles,  ///< what vsplits append to a map of triangles
+  fine,           ///< FINE: bits below the cells that packets bring
+  faces,          ///< fACE
+  order,          ///< oRDP
+  digest,         ///< dGST
+  scene,          ///< sCNE, mTRL
+  images,         ///< iMGE
+  foreign,        ///< fRGN
+  unknown,        ///< chunks that this build does not know
 };
 
 /// What a report sums parts up to, in the order in which it lists them.
@@ -64,6 +65,7 @@ inline constexpr PartDescription kParts[] = {
     {Part::wedges, "wedges", PartGroup::wedges},
     {Part::reassigned, "reassigned", PartGroup::names_and_offsets},
     {Part::map_offsets, "map_offsets", PartGroup::names_and_offsets},
+    {Part::new_triangles, "new_triangles", PartGroup::names_and_offsets},
     {Part::fine, "fine", PartGroup::fine},
     {Part::faces, "faces", PartGroup::faces},
     {Part::order, "order", PartGroup::order},

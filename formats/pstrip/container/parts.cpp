@@ -52,7 +52,7 @@ class Lister {
     ReadIo io(chunk, limits_.string_bytes, ignored);
     ProgressiveMesh mesh;
     MeshCounts counts;
-    mesh_fields(io, mesh, counts);
+    mesh_fields(io, mesh, counts, profile_.value_or(Profile::plain));
     return mesh;
   }
 

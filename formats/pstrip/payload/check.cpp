@@ -54,6 +54,8 @@ bool check_counts(const ProgressiveMesh& mesh, Index map_entries, MeshFaults& fa
     return faults.report(Fault::count_too_large);
   if (mesh.triangles > map_entries || mesh.strips > map_entries)
     return faults.report(Fault::entry_count);
+  if (mesh.encoding == MapEncoding::triangles && full_map_entries(mesh) != map_entries)
+    return faults.report(Fault::triangle_entries);
   if (mesh.base_vertices > mesh.vertices || mesh.base_wedges > mesh.wedges)
     return faults.report(Fault::base_too_large);
   if (mesh.single_wedges &&
@@ -66,6 +68,54 @@ bool check_permutation(std::span<const Index> list, Index count, Fault fault, Fi
                        MeshFaults& faults) {
   if (list.size() != count) return faults.report(fault, Field::order);
   return is_permutation(list, count, faults.at(fault, field));
+}
+
+/// How many triangles the map has when `new_corners` of those that vsplits bring are there.
+std::size_t triangles_there(const ProgressiveMesh& mesh, std::size_t new_corners) {
+  return (mesh.base_map.size() + new_corners) / 3;
+}
+
+/// Groups of the triangles [begin, end).
+bool check_triangle_groups(const ProgressiveMesh& mesh, std::size_t begin, std::size_t end,
+                           MeshFaults& faults) {
+  if (!has_triangle_groups(mesh)) return true;
+  if (mesh.triangle_group.size() < end) return faults.report(Fault::list_length);
+  return all_below(std::span(mesh.triangle_group).subspan(begin, end - begin), mesh.groups.size(),
+                   [&](std::size_t t) {
+                     return faults.report(Fault::triangle_group, Field::triangle_group, begin + t);
+                   });
+}
+
+/// The map of the base, entry by entry.
+bool check_base_map(const ProgressiveMesh& mesh, MeshFaults& faults) {
+  for (std::size_t i = 0; i < mesh.base_map.size(); ++i) {
+    const Index entry = mesh.base_map[i];
+    if (entry < mesh.base_wedges) continue;
+    if (is_wedge(entry)) return faults.report(Fault::map_entry, Field::base_map, i);
+    if (entry != kRestart && mesh.encoding != MapEncoding::offset)
+      return faults.report(Fault::map_symbol, Field::base_map, i);
+    if (entry == kRestart && mesh.encoding == MapEncoding::triangles)
+      return faults.report(Fault::map_triangles, Field::base_map, i);
+  }
+  if (mesh.encoding != MapEncoding::triangles) return true;
+  if (mesh.base_map.size() % 3 != 0) return faults.report(Fault::map_triangles, Field::base);
+  if (mesh.base_map.size() > full_map_entries(mesh)) return faults.report(Fault::triangle_growth);
+  return check_triangle_groups(mesh, 0, triangles_there(mesh, 0), faults);
+}
+
+/// Map offsets and new triangles of the record that starts at `at`, its wedges being there.
+Fault fault_of_map_changes(const ProgressiveMesh& mesh, const Vsplit& v, const PacketStart& at) {
+  const bool grows = mesh.encoding == MapEncoding::triangles;
+  const std::size_t entries = mesh.base_map.size() + at.new_corner;
+  for (std::size_t p = at.map_offset; p < at.map_offset + v.map_offsets; ++p) {
+    if (mesh.map_offsets[p] >= entries) return Fault::offset_past_end;
+    if (!grows && mesh.base_map[mesh.map_offsets[p]] == kRestart) return Fault::offset_is_restart;
+  }
+  const auto corners =
+      std::span(mesh.new_corners).subspan(at.new_corner, std::size_t{3} * v.triangles);
+  return all_below(corners, std::uint64_t{at.wedges} + v.wedges, [](std::size_t) { return false; })
+             ? Fault::none
+             : Fault::corner_not_there;
 }
 
 /// One packet against the records of its mesh; `start` becomes its end.
@@ -90,10 +140,16 @@ bool follow_packet(const ProgressiveStrips& strips, std::size_t number, PacketSt
 bool check_ends(const ProgressiveMesh& mesh, const PacketStart& end, bool complete,
                 MeshFaults& faults) {
   if (end.vsplit != mesh.vsplits.size() || end.offset_count != mesh.wedge_offset_counts.size() ||
-      end.reassigned != mesh.reassigned.size() || end.map_offset != mesh.map_offsets.size())
+      end.reassigned != mesh.reassigned.size() || end.map_offset != mesh.map_offsets.size() ||
+      end.new_corner != mesh.new_corners.size())
+    return faults.report(Fault::list_length);
+  if (mesh.triangle_group.size() !=
+      (has_triangle_groups(mesh) ? triangles_there(mesh, end.new_corner) : 0))
     return faults.report(Fault::list_length);
   if (complete && (end.vertices != mesh.vertices || end.wedges != mesh.wedges))
     return faults.report(Fault::vsplits_missing);
+  if (complete && mesh.base_map.size() + end.new_corner != full_map_entries(mesh))
+    return faults.report(Fault::triangle_growth);
   const auto is_wrong = [](const Attribute& a, Index n) {
     return a.data.size() != a.element_bytes() * n;
   };
@@ -138,8 +194,9 @@ bool check_packets(const ProgressiveStrips& strips, FaultSink& faults) {
 
 bool check_mesh(const ProgressiveStrips& strips, Index m, FaultSink& faults) {
   const ProgressiveMesh& mesh = strips.meshes[m];
-  if (mesh.base_map.size() > kMaxCount) return MeshFaults(m, faults).report(Fault::count_too_large);
-  const auto entries = static_cast<Index>(mesh.base_map.size());
+  if (full_map_entries(mesh) > kMaxCount)
+    return MeshFaults(m, faults).report(Fault::count_too_large);
+  const auto entries = static_cast<Index>(full_map_entries(mesh));
   return check_mesh_header(strips, m, entries, faults) && check_base(strips, m, faults);
 }
 
@@ -181,6 +238,7 @@ PacketStart packet_after(const ProgressiveMesh& mesh, const PacketStart& start, 
     end.wedges += v.wedges;
     end.reassigned += v.reassigned;
     end.map_offset += v.map_offsets;
+    end.new_corner += std::size_t{3} * v.triangles;
   }
   return end;
 }
@@ -213,13 +271,7 @@ bool check_base(const ProgressiveStrips& strips, Index index, FaultSink& sink) {
   if (!all_below(mesh.base_wedge_vertex, mesh.base_vertices,
                  faults.at(Fault::wedge_vertex, Field::base_wedge_vertex)))
     return false;
-  for (std::size_t i = 0; i < mesh.base_map.size(); ++i) {
-    const Index entry = mesh.base_map[i];
-    if (entry < mesh.base_wedges || entry == kRestart) continue;
-    if (is_wedge(entry)) return faults.report(Fault::map_entry, Field::base_map, i);
-    if (mesh.encoding == MapEncoding::naive)
-      return faults.report(Fault::map_symbol, Field::base_map, i);
-  }
+  if (!check_base_map(mesh, faults)) return false;
   // Records write wedges only, so chains that end in the base end at every level.
   if (mesh.encoding == MapEncoding::offset)
     if (const auto resolved = resolve(mesh.base_map); !resolved)
@@ -236,8 +288,12 @@ bool check_packet(const ProgressiveStrips& strips, Index index, const PacketStar
       end.wedges - start.wedges != end.offset_count - start.offset_count)
     return faults.report(Fault::wedge_count);
   if (end.offset_count > mesh.wedge_offset_counts.size() ||
-      end.reassigned > mesh.reassigned.size() || end.map_offset > mesh.map_offsets.size())
+      end.reassigned > mesh.reassigned.size() || end.map_offset > mesh.map_offsets.size() ||
+      end.new_corner > mesh.new_corners.size())
     return faults.report(Fault::list_length);
+  if (end.new_corner != start.new_corner &&
+      mesh.base_map.size() + end.new_corner > full_map_entries(mesh))
+    return faults.report(Fault::triangle_growth);
   PacketStart at = start;
   for (std::size_t i = start.vsplit; i < end.vsplit; ++i) {
     const Vsplit& v = mesh.vsplits[i];
@@ -253,18 +309,18 @@ bool check_packet(const ProgressiveStrips& strips, Index index, const PacketStar
     for (std::size_t w = at.offset_count; w < at.offset_count + v.wedges; ++w)
       map_offsets += mesh.wedge_offset_counts[w];
     if (map_offsets != v.map_offsets) return broken(Fault::packet_offsets);
-    for (std::size_t p = at.map_offset; p < at.map_offset + v.map_offsets; ++p) {
-      if (mesh.map_offsets[p] >= mesh.base_map.size()) return broken(Fault::offset_past_end);
-      if (mesh.base_map[mesh.map_offsets[p]] == kRestart) return broken(Fault::offset_is_restart);
-    }
+    if (const Fault fault = fault_of_map_changes(mesh, v, at); fault != Fault::none)
+      return broken(fault);
     at = {i + 1,
           at.offset_count + v.wedges,
           at.reassigned + v.reassigned,
           at.map_offset + v.map_offsets,
+          at.new_corner + std::size_t{3} * v.triangles,
           at.vertices + 1,
           at.wedges + v.wedges};
   }
-  return true;
+  return check_triangle_groups(mesh, triangles_there(mesh, start.new_corner),
+                               triangles_there(mesh, end.new_corner), faults);
 }
 
 bool check_faces(const ProgressiveStrips& strips, Index index, FaultSink& sink) {

@@ -11,7 +11,7 @@ namespace pstrips::inline formats {
 
 /// Where a packet starts in the flat lists of its mesh, and, after the last one, where they end.
 struct PacketStart {
-  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0;
+  std::size_t vsplit = 0, offset_count = 0, reassigned = 0, map_offset = 0, new_corner = 0;
   Index vertices = 0, wedges = 0;  ///< there before the packet
   friend bool operator==(const PacketStart&, const PacketStart&) = default;
 };

@@ -139,7 +139,7 @@ bool PayloadDecoder::read_mesh(ReadIo& io) {
   ProgressiveMesh& mesh = strips_.meshes.emplace_back();
   MeshCounts& c = counts_.emplace_back();
   mesh_ = static_cast<Index>(strips_.meshes.size() - 1);
-  mesh_fields(io, mesh, c);
+  mesh_fields(io, mesh, c, strips_.profile);
   mesh.vertices = c.vertices;
   mesh.wedges = c.wedges;
   mesh.triangles = c.triangles;
@@ -206,9 +206,7 @@ bool PayloadDecoder::read_base(ReadIo& io) {
   if (head.mesh != index) return refuse(Fault::base_mesh, std::to_string(head.mesh));
   mesh_ = index;
   ProgressiveMesh& mesh = strips_.meshes[index];
-  if (head.vertices != mesh.base_vertices || head.wedges != mesh.base_wedges ||
-      head.map_entries != counts_[index].map_entries)
-    return refuse(Fault::base_counts);
+  if (!holds(fault_of_base_head(head, mesh, counts_[index]))) return false;
   const IndexRow* const row = this->row();
   if (checks_model()) {
     const bool is_last = index + 1 == strips_.meshes.size();
@@ -219,10 +217,7 @@ bool PayloadDecoder::read_base(ReadIo& io) {
     strips_.bases.push_back(level_of(row, index, head.vertices));
     return true;
   }
-  mesh.position.data = {};
-  mesh.base_wedge_vertex = {};
-  for (Attribute& a : mesh.wedge_attributes) a.data = {};
-  mesh.base_map = {};
+  clear_base(mesh);
   return false;
 }
 
@@ -230,7 +225,7 @@ bool PayloadDecoder::read_base(ReadIo& io) {
 
 bool PayloadDecoder::read_packet(ReadIo& io) {
   PacketHead head;
-  geometry_->read_head(io, head);
+  geometry_->read_head(io, head, strips_.meshes);
   if (io.failed()) return io.finish();
   if (!names_mesh(head.mesh, Fault::packet_mesh)) return false;
   ProgressiveMesh& mesh = strips_.meshes[head.mesh];
@@ -337,6 +332,7 @@ bool PayloadDecoder::read_foreign(ReadIo& io) {
 bool PayloadDecoder::read_end(ReadIo& io) {
   if (io.payload_bytes() != 0 && !goes_on(Fault::end_payload)) return false;
   if (checks_model()) {
+    if (!holds(fault_of_ends(reached_, strips_.meshes))) return false;
     for (std::size_t m = 0; m < strips_.meshes.size(); ++m) {
       const ProgressiveMesh& mesh = strips_.meshes[m];
       if (geometry_->needs_fine(static_cast<Index>(m)) &&

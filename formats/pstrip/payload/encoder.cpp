@@ -98,7 +98,9 @@ void PayloadEncoder::sum_totals() {
   std::vector<MeshCounts> counts;
   for (const ProgressiveMesh& mesh : strips_.meshes) {
     counts.push_back(counts_of(mesh));
-    if (OrderPayload::is_needed(mesh)) header_.version_minor = 1;  // that has oRDP
+    const bool grows = mesh.encoding == MapEncoding::triangles;
+    const std::uint16_t needed = grows ? 2 : OrderPayload::is_needed(mesh) ? 1 : 0;
+    header_.version_minor = std::max(header_.version_minor, needed);  // 1 has oRDP
   }
   for (const Total& total : kTotals) header_.*total.total = sum_of(total, counts);
 }
@@ -128,7 +130,7 @@ void PayloadEncoder::fields(Io& io, const PlannedChunk& chunk) const {
   if (chunk.type == kMaterialsChunk) return material_fields(io, scene, embedded_);
   if (chunk.type == kMeshChunk) {
     const MeshCounts counts = counts_of(strips_.meshes[i]);
-    return mesh_fields(io, strips_.meshes[i], counts);
+    return mesh_fields(io, strips_.meshes[i], counts, strips_.profile);
   }
   if (chunk.type == kIndexChunk) return index_fields(io, rows_);
   if (chunk.type == kImageChunk) {

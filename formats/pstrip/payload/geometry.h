@@ -27,6 +27,7 @@ struct BaseHead {
 /// What a PCKT says of itself. [spec/container.md §7.2]
 struct PacketHead {
   Index mesh = 0, first_vsplit = 0, vsplits = 0, wedges = 0, reassigned = 0, map_offsets = 0;
+  Index triangles = 0;  ///< that are appended to the map
 };
 
 /// Reads the geometry of one file, chunk by chunk in file order, so that it may keep a state for
@@ -39,13 +40,16 @@ class GeometryReader {
   virtual ~GeometryReader() = default;
 
   virtual void read_head(layout::ReadIo& io, BaseHead& head) = 0;
-  virtual void read_head(layout::ReadIo& io, PacketHead& head) = 0;
+  /// meshes  as far as they are there; the one that the head names may not be
+  virtual void read_head(layout::ReadIo& io, PacketHead& head,
+                         std::span<const ProgressiveMesh> meshes) = 0;
 
-  /// Fills positions, wedge vertices, wedge attributes and index map of the base, none of which are
-  /// there yet. Precondition: the head agrees with the counts of the mesh.
+  /// Fills positions, wedge vertices, wedge attributes, index map and groups of triangles of the
+  /// base, none of which are there yet. Precondition: the head agrees with the counts of the mesh.
   virtual bool read(layout::ReadIo& io, const BaseHead& head, ProgressiveMesh& mesh) = 0;
-  /// Appends head.vsplits records (parent, wedges, reassigned), and to wedge_offset_counts,
-  /// map_offsets, reassigned and the attributes what they bring. Counts need not add up yet.
+  /// Appends head.vsplits records (parent, wedges, reassigned, triangles), and to
+  /// wedge_offset_counts, map_offsets, reassigned, new_corners, triangle_group and the attributes
+  /// what they bring. Counts need not add up yet.
   ///
   /// start  where the lists of the mesh end now
   virtual bool read(layout::ReadIo& io, const PacketHead& head, ProgressiveMesh& mesh,

@@ -4,6 +4,7 @@
 #include "formats/pstrip/container/header.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/io.h"
+#include "formats/pstrip/payload/predicates.h"
 
 // For formats/pstrip and validators: the wire layout of the payloads that all profiles share, once,
 // for reading, writing, sizing and listing. [spec/container.md §5, §6, §8, §9]
@@ -80,7 +81,7 @@ inline MeshCounts counts_of(const ProgressiveMesh& mesh) {
           mesh.wedges,
           mesh.triangles,
           mesh.strips,
-          static_cast<Index>(mesh.base_map.size()),
+          static_cast<Index>(std::min<std::uint64_t>(full_map_entries(mesh), kNone)),
           static_cast<Index>(mesh.vsplits.size()),
           face_count(mesh),
           mesh.base_vertices,
@@ -119,10 +120,19 @@ void format_fields(Io& io, A& a) {
   io.zeros(1);
 }
 
+template <class Io, class G>
+void grid_fields(Io& io, G& grid) {
+  io.number(grid.step);
+  io.choice(grid.exact, 2);
+  io.zeros(3);
+  for (auto& x : grid.origin) io.number(x);
+}
+
+/// The plain profile has no use for a grid.
 template <class Io, class M, class C>
-void mesh_fields(Io& io, M& mesh, C& counts) {
+void mesh_fields(Io& io, M& mesh, C& counts, Profile profile) {
   io.string(mesh.name);
-  io.choice(mesh.encoding, 2);
+  io.choice(mesh.encoding, 3);
   io.choice(mesh.placement, 2);
   io.choice(mesh.single_wedges, 2);
   io.zeros(1);
@@ -147,6 +157,7 @@ void mesh_fields(Io& io, M& mesh, C& counts) {
   io.number(counts.faces);
   io.number(counts.base_vertices);
   io.number(counts.base_wedges);
+  if (profile != Profile::plain) grid_fields(io, mesh.grid);
 }
 
 // ---- sCNE, mTRL, iMGE, fRGN ----------------------------------------------------------------

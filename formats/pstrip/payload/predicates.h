@@ -93,6 +93,17 @@ constexpr bool is_rotation(std::uint8_t rotation, Index corners) {
   return rotation < std::max<Index>(corners, 1);
 }
 
+/// Length of the index map at full resolution.
+inline std::uint64_t full_map_entries(const ProgressiveMesh& mesh) {
+  return mesh.encoding == MapEncoding::triangles ? std::uint64_t{3} * mesh.triangles
+                                                 : mesh.base_map.size();
+}
+
+/// Whether a list says which group each triangle of the map is in.
+inline bool has_triangle_groups(const ProgressiveMesh& mesh) {
+  return mesh.encoding == MapEncoding::triangles && mesh.groups.size() > 1;
+}
+
 /// Length of the index map as the groups have it.
 inline std::uint64_t sum_of_group_entries(const ProgressiveMesh& mesh) {
   std::uint64_t sum = 0;

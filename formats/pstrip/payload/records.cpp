@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "formats/pstrip/payload/predicates.h"
+
 namespace pstrips::inline formats {
 
 using namespace layout;
@@ -45,6 +47,15 @@ Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header,
   return Fault::none;
 }
 
+Fault fault_of_base_head(const BaseHead& head, const ProgressiveMesh& mesh,
+                         const MeshCounts& counts) {
+  const bool fits = mesh.encoding == MapEncoding::triangles
+                        ? head.map_entries <= counts.map_entries
+                        : head.map_entries == counts.map_entries;
+  const bool agrees = head.vertices == mesh.base_vertices && head.wedges == mesh.base_wedges;
+  return fits && agrees ? Fault::none : Fault::base_counts;
+}
+
 Fault fault_of_base_row(const IndexRow* row, const Chunk& chunk, bool is_last,
                         std::uint64_t base_end) {
   if (!is_row_of(row, chunk)) return Fault::row_chunk;
@@ -58,18 +69,24 @@ Fault fault_of_packet_row(const IndexRow* row, const Chunk& chunk, const PacketH
   if (row->mesh != head.mesh || row->vsplits != head.vsplits) return Fault::row_contents;
   if (head.vsplits > mesh.vertices - start.vertices) return Fault::vsplit_count;
   if (head.wedges > mesh.wedges - start.wedges) return Fault::wedge_count;
+  if (head.triangles > 0) {
+    const std::uint64_t there = mesh.base_map.size() + start.new_corner;
+    if (std::uint64_t{3} * head.triangles > full_map_entries(mesh) - there)
+      return Fault::triangle_growth;
+  }
   if (row->vertices != start.vertices + head.vsplits) return Fault::row_vertices;
   return Fault::none;
 }
 
 Fault complete_records(ProgressiveMesh& mesh, const PacketHead& head, const PacketStart& start) {
-  std::uint64_t wedges = 0, reassigned = 0, map_offsets = 0;
+  std::uint64_t wedges = 0, reassigned = 0, map_offsets = 0, triangles = 0;
   std::size_t wedge = start.offset_count;
   for (std::size_t i = start.vsplit; i < mesh.vsplits.size(); ++i) {
     Vsplit& split = mesh.vsplits[i];
     if (mesh.single_wedges) split.wedges = 1;
     wedges += split.wedges;
     reassigned += split.reassigned;
+    triangles += split.triangles;
     if (wedges > head.wedges) break;
     std::uint64_t of_record = 0;
     for (const std::size_t end = wedge + split.wedges; wedge < end; ++wedge)
@@ -78,14 +95,26 @@ Fault complete_records(ProgressiveMesh& mesh, const PacketHead& head, const Pack
     split.map_offsets = static_cast<Index>(std::min<std::uint64_t>(of_record, kNone));
   }
   if (wedges != head.wedges || reassigned != head.reassigned) return Fault::packet_wedges;
+  if (triangles != head.triangles) return Fault::packet_triangles;
   return map_offsets == head.map_offsets ? Fault::none : Fault::packet_offsets;
 }
 
 Fault fault_of_ends(std::span<const PacketStart> reached, std::span<const ProgressiveMesh> meshes) {
-  for (std::size_t m = 0; m < reached.size(); ++m)
+  for (std::size_t m = 0; m < reached.size(); ++m) {
     if (reached[m].vertices != meshes[m].vertices || reached[m].wedges != meshes[m].wedges)
       return Fault::vsplits_missing;
+    if (meshes[m].base_map.size() + reached[m].new_corner != full_map_entries(meshes[m]))
+      return Fault::triangle_growth;
+  }
   return Fault::none;
+}
+
+void clear_base(ProgressiveMesh& mesh) {
+  mesh.position.data = {};
+  mesh.base_wedge_vertex = {};
+  for (Attribute& a : mesh.wedge_attributes) a.data = {};
+  mesh.base_map = {};
+  mesh.triangle_group = {};
 }
 
 void cut_back(ProgressiveMesh& mesh, const PacketStart& to) {
@@ -93,6 +122,9 @@ void cut_back(ProgressiveMesh& mesh, const PacketStart& to) {
   mesh.wedge_offset_counts.resize(to.offset_count);
   mesh.reassigned.resize(to.reassigned);
   mesh.map_offsets.resize(to.map_offset);
+  mesh.new_corners.resize(to.new_corner);
+  if (has_triangle_groups(mesh))
+    mesh.triangle_group.resize((mesh.base_map.size() + to.new_corner) / 3);
   mesh.position.data.resize(to.vertices * mesh.position.element_bytes());
   if (mesh.placement == Placement::optimal)
     mesh.parent_position.resize(to.vsplit * mesh.position.element_bytes());

@@ -20,6 +20,10 @@ Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header,
                     std::span<const layout::MeshCounts> meshes, const Chunk& chunk,
                     const GeometryCodec& codec);
 
+/// What a BASE says of itself against its MESH.
+Fault fault_of_base_head(const BaseHead& head, const ProgressiveMesh& mesh,
+                         const layout::MeshCounts& counts);
+
 /// The row of a BASE, null when there is none.
 Fault fault_of_base_row(const IndexRow* row, const Chunk& chunk, bool is_last,
                         std::uint64_t base_end);
@@ -34,9 +38,11 @@ Fault fault_of_packet_row(const IndexRow* row, const Chunk& chunk, const PacketH
 /// head of their packet.
 Fault complete_records(ProgressiveMesh& mesh, const PacketHead& head, const PacketStart& start);
 
-/// Whether the packets have brought every vertex and wedge of every mesh.
+/// Whether the packets have brought every vertex, wedge and triangle of every mesh.
 Fault fault_of_ends(std::span<const PacketStart> reached, std::span<const ProgressiveMesh> meshes);
 
+/// Takes back what a BASE brought.
+void clear_base(ProgressiveMesh& mesh);
 /// Takes back what a packet brought that starts at `to`.
 void cut_back(ProgressiveMesh& mesh, const PacketStart& to);
 

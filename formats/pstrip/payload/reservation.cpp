@@ -1,5 +1,7 @@
 #include "formats/pstrip/payload/reservation.h"
 
+#include "formats/pstrip/payload/predicates.h"
+
 namespace pstrips::inline formats {
 
 Reservation::Reservation(std::span<const IndexRow> rows, std::size_t meshes, std::uint64_t budget)
@@ -25,6 +27,9 @@ void Reservation::reserve(ProgressiveMesh& mesh, Index index, std::uint64_t vspl
   within_budget(mesh.wedge_offset_counts, mesh.wedges - mesh.base_wedges);
   if (mesh.placement == Placement::optimal)
     within_budget(mesh.parent_position, vsplits * position_bytes);
+  if (mesh.encoding == MapEncoding::triangles)
+    within_budget(mesh.new_corners, full_map_entries(mesh));
+  if (has_triangle_groups(mesh)) within_budget(mesh.triangle_group, mesh.triangles);
   const Packets& packets = packets_[index];
   within_budget(mesh.map_offsets,
                 codec.estimate_map_offsets(mesh, vsplits, packets.count, packets.payload_bytes));

@@ -22,7 +22,8 @@ struct TextFile {
 /// Replays all records and writes which triangles each of them adds and changes.
 ///
 /// Precondition: `check(strips)` holds (formats/pstrip/payload/check.h).
-/// errors  corrupt when a record rewrites an entry that does not show its parent, with the path of
+/// errors  bad_argument for a map of triangles; corrupt when a record rewrites an entry that does
+/// not show its parent, with the path of
 ///         the vsplit; over_limit when the text would exceed Limits::memory_bytes (a record names
 ///         every face that it changes, so hostile strips can ask for a quadratic amount)
 /// cost    O(map + entries rewritten + text)

@@ -428,6 +428,10 @@ Bytes header(const ProgressiveStrips& strips, bool textured, const Numbering& nu
 }  // namespace
 
 Result<TextFile> write_text(const ProgressiveStrips& strips, const Limits& limits) {
+  for (std::size_t m = 0; m < strips.meshes.size(); ++m)
+    if (strips.meshes[m].encoding == MapEncoding::triangles)
+      return fail(ErrorCode::bad_argument, "text files have no place for maps of triangles",
+                  kNoOffset, "/meshes/" + std::to_string(m));
   const bool textured =
       !strips.meshes.empty() &&
       std::ranges::all_of(strips.meshes, [](const auto& m) { return texture_of(m) != nullptr; });

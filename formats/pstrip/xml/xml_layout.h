@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/progressive_strips.h"
 #include "formats/pstrip/container/chunks.h"
 #include "formats/pstrip/payload/check.h"
+#include "formats/pstrip/payload/predicates.h"
 #include "formats/pstrip/xml/xml_names.h"
 #include "formats/pstrip/xml/xml_text.h"
 
@@ -131,7 +134,9 @@ void base_fields(Io& io, S& strips, B& base) {
   io.elements("positions", mesh.position, mesh.base_vertices);
   if (!mesh.single_wedges) io.numbers("wedge_vertex", "/base_wedge_vertex", mesh.base_wedge_vertex);
   for (auto& attribute : mesh.wedge_attributes) io.elements("values", attribute, mesh.base_wedges);
-  io.map_entries("map", "/base_map", mesh.base_map);
+  io.map_entries("map", "/base_map", mesh.base_map, mesh.encoding);
+  if (!has_triangle_groups(mesh)) return;
+  io.numbers("triangle_group", "/triangle_group", mesh.triangle_group, mesh.base_map.size() / 3);
 }
 
 /// What a new wedge brings: the attributes of a `wedge`, or of a `vsplit` that is its only wedge.
@@ -151,6 +156,24 @@ void wedge_fields(Io& io, M& mesh, V& vsplit, PacketStart& start) {
   start.map_offset += count;
 }
 
+/// What a vsplit appends to a map of triangles.
+/// start  where the vsplit's part of each of the mesh's lists begins
+template <class Io, class M, class V>
+void triangle_fields(Io& io, M& mesh, V& vsplit, const PacketStart& start) {
+  if (mesh.encoding != MapEncoding::triangles) return;
+  Index corners = 3 * vsplit.triangles, groups = vsplit.triangles;
+  io.run_unless_empty("new_triangles", mesh.new_corners, start.new_corner, corners);
+  if constexpr (Io::kReads) vsplit.triangles = corners / 3;
+  if (!io.demand(corners % 3 == 0, Fault::xml_list_length, "not three wedges for each triangle",
+                 "new_triangles") ||
+      !has_triangle_groups(mesh))
+    return;
+  io.run_unless_empty("triangle_group", mesh.triangle_group,
+                      (mesh.base_map.size() + start.new_corner) / 3, groups);
+  io.demand(groups == vsplit.triangles, Fault::xml_list_length,
+            "not one group for each new triangle", "triangle_group");
+}
+
 /// start  where the vsplit's part of each of the mesh's lists begins
 template <class Io, class M>
 void vsplit_fields(Io& io, M& mesh, const PacketStart& start) {
@@ -162,8 +185,12 @@ void vsplit_fields(Io& io, M& mesh, const PacketStart& start) {
   io.element("position", mesh.position, mesh.position.data, start.vertices);
   if (mesh.placement == Placement::optimal)
     io.element("parent_position", mesh.position, mesh.parent_position, start.vsplit);
-  if (mesh.single_wedges) return wedge_fields(io, mesh, vsplit, wedge);
+  if (mesh.single_wedges) {
+    wedge_fields(io, mesh, vsplit, wedge);
+    return triangle_fields(io, mesh, vsplit, start);
+  }
   io.run_unless_empty("reassigned", mesh.reassigned, start.reassigned, vsplit.reassigned);
+  triangle_fields(io, mesh, vsplit, start);
   io.content(vsplit.wedges > 0);
   io.each("wedge", "", vsplit.wedges,
           [&](auto& child) { wedge_fields(child, mesh, vsplit, wedge); });
@@ -292,9 +319,16 @@ void tail_fields(Io& io, S& strips) {
               [](auto& child, auto& chunk) { chunk_fields(child, chunk); });
 }
 
+/// What version 2.0 does not have.
+inline bool needs_newer_version(const ProgressiveStrips& strips) {
+  return std::ranges::any_of(strips.meshes, [](const ProgressiveMesh& mesh) {
+    return mesh.encoding == MapEncoding::triangles;
+  });
+}
+
 template <class Io, class S>
 void document_fields(Io& io, S& strips) {
-  io.version("version");
+  io.version("version", needs_newer_version(strips) ? kXmlVersionMinor : 0);
   io.profile("profile", strips.profile);
   io.flag_unless("complete", strips.complete, true);
   io.content();

@@ -12,11 +12,10 @@ namespace pstrips::inline formats {
 
 /// What the variant's own versions count. [spec/xml.md X-004]
 inline constexpr Index kXmlVersionMajor = 2;
-inline constexpr std::string_view kXmlVersion = "2.0";
-static_assert(kXmlVersion.front() - '0' == kXmlVersionMajor);
+inline constexpr Index kXmlVersionMinor = 1;
 
 /// In the order of the enumeration that each belongs to.
-inline constexpr std::array<std::string_view, 2> kEncodingNames = {"naive", "offset"};
+inline constexpr std::array<std::string_view, 3> kEncodingNames = {"naive", "offset", "triangles"};
 inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "optimal"};
 inline constexpr std::array<std::string_view, 3> kFaceKindNames = {"polygons", "lines", "points"};
 inline constexpr std::array<std::string_view, 8> kTypeNames = {"i8",  "u8",  "i16", "u16",

@@ -29,7 +29,7 @@ void XmlReadAttributes::number(const char* name, T& v) {
   if (in_.ok() && !parse_number(text, v)) fail(Fault::xml_number, kBadNumber, name);
 }
 
-void XmlReadAttributes::version(const char* name) {
+void XmlReadAttributes::version(const char* name, Index) {
   const std::string_view text = raw(name);
   const std::size_t dot = std::min(text.find('.'), text.size());
   Index major = 0, minor = 0;
@@ -39,7 +39,7 @@ void XmlReadAttributes::version(const char* name) {
     return;
   demand(major == kXmlVersionMajor, Fault::version_unknown, "version that this build does not know",
          name);
-  if (minor > 0) in_.set_newer_version();
+  if (minor > kXmlVersionMinor) in_.set_newer_version();
 }
 
 void XmlReadAttributes::profile(const char* name, Profile& v) {

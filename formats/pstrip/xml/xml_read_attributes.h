@@ -14,7 +14,7 @@ class XmlReadAttributes {
   XmlReadAttributes(XmlReadContext& in, const tinyxml2::XMLElement& element, Fault shape)
       : in_(in), element_(element), shape_(shape) {}
 
-  void version(const char* name);
+  void version(const char* name, Index);
   void profile(const char* name, Profile& v);
   void constant(const char* name, std::string_view value, Fault unknown);
   void string(const char* name, std::string& v);

@@ -117,8 +117,14 @@ void XmlReadIo::numbers(const char* name, const char* part, std::vector<Index>& 
 void XmlReadIo::numbers(const char* name, const char* part, std::vector<std::uint8_t>& list) {
   list_of_numbers(name, part, list);
 }
+void XmlReadIo::numbers(const char* name, const char* part, std::vector<Index>& list,
+                        std::size_t count) {
+  list_of_numbers(name, part, list);
+  demand(list.size() == count, Fault::xml_list_length, list.size() < count ? kTooFew : kTooMany);
+}
 
-void XmlReadIo::map_entries(const char* name, const char* part, std::vector<Index>& map) {
+void XmlReadIo::map_entries(const char* name, const char* part, std::vector<Index>& map,
+                            MapEncoding) {
   const XMLElement* at = take(name);
   if (at == nullptr) return;
   XmlReadIo child(*this, *at, name, 0);

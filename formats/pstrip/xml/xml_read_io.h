@@ -67,7 +67,9 @@ class XmlReadIo : public XmlReadAttributes {
   void elements(const char* name, Attribute& attribute, std::size_t count);
   void numbers(const char* name, const char* part, std::vector<Index>& list);
   void numbers(const char* name, const char* part, std::vector<std::uint8_t>& list);
-  void map_entries(const char* name, const char* part, std::vector<Index>& map);
+  /// Demands that there are `count`.
+  void numbers(const char* name, const char* part, std::vector<Index>& list, std::size_t count);
+  void map_entries(const char* name, const char* part, std::vector<Index>& map, MapEncoding);
   void hexadecimal(Bytes& bytes, std::size_t size);
   void base64(Bytes& bytes);
   void text(Bytes& bytes);

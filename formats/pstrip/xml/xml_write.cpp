@@ -25,7 +25,9 @@ class XmlWriteIo {
   }
 
   // Attributes.
-  void version(const char* name) { string(name, kXmlVersion); }
+  void version(const char* name, Index minor) {
+    string(name, std::to_string(kXmlVersionMajor) + "." + std::to_string(minor));
+  }
   void profile(const char* name, Profile v) { string(name, name_of(v)); }
   void constant(const char* name, std::string_view value, Fault) { string(name, value); }
   void string(const char* name, std::string_view v) {
@@ -120,20 +122,27 @@ class XmlWriteIo {
     });
   }
   template <class T>
-  void numbers(const char* name, const char*, const std::vector<T>& list) {
+  void numbers(const char* name, const char* part, const std::vector<T>& list) {
+    numbers(name, part, list, list.size());
+  }
+  template <class T>
+  void numbers(const char* name, const char*, const std::vector<T>& list, std::size_t count) {
     constexpr std::size_t kPerLine = 16;
     text_element(name, [&] {
-      for (std::size_t i = 0; i < list.size(); ++i) {
+      for (std::size_t i = 0; i < count; ++i) {
         if (i > 0) out_.character(i % kPerLine == 0 ? '\n' : ' ');
         out_.integer(std::uint32_t{list[i]});
       }
     });
   }
   /// One strip a line.
-  void map_entries(const char* name, const char*, std::span<const Index> map) {
+  void map_entries(const char* name, const char*, std::span<const Index> map,
+                   MapEncoding encoding) {
+    const bool whole = encoding == MapEncoding::triangles;
     text_element(name, [&] {
       for (std::size_t i = 0; i < map.size(); ++i) {
-        if (i > 0) out_.character(map[i - 1] == kRestart ? '\n' : ' ');
+        const bool starts = whole ? i % 3 == 0 : i > 0 && map[i - 1] == kRestart;
+        if (i > 0) out_.character(starts ? '\n' : ' ');
         if (is_wedge(map[i]))
           out_.integer(map[i]);
         else

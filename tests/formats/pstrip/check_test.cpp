@@ -144,8 +144,8 @@ TEST(Check, PacketsFollowEachOther) {
     for (const Packet& packet : good.packets)
       if (packet.mesh == m) at = packet_after(mesh, at, packet.vsplits);
     EXPECT_EQ(at, (PacketStart{mesh.vsplits.size(), mesh.wedge_offset_counts.size(),
-                               mesh.reassigned.size(), mesh.map_offsets.size(), mesh.vertices,
-                               mesh.wedges}));
+                               mesh.reassigned.size(), mesh.map_offsets.size(),
+                               mesh.new_corners.size(), mesh.vertices, mesh.wedges}));
   }
 }
 

@@ -147,7 +147,9 @@ class DescribeIo {
     gathered_.add(path, io.visit_);
   }
 
-  void version(const char* name) { note(name, {std::to_string(kXmlVersionMajor) + "\\.[0-9]+"}); }
+  void version(const char* name, Index) {
+    note(name, {std::to_string(kXmlVersionMajor) + "\\.[0-9]+"});
+  }
   void profile(const char* name, Profile) {
     std::string names;
     for (const ProfileName& p : kProfiles) names.append(names.empty() ? "" : "|").append(p.name);
@@ -222,7 +224,11 @@ class DescribeIo {
   void numbers(const char* name, const char*, const std::vector<T>&) {
     list(name, "indices");
   }
-  void map_entries(const char* name, const char*, std::span<const Index>) {
+  template <class T>
+  void numbers(const char* name, const char*, const std::vector<T>&, std::size_t) {
+    list(name, "indices");
+  }
+  void map_entries(const char* name, const char*, std::span<const Index>, MapEncoding) {
     list(name, "mapEntries");
   }
   void hexadecimal(ByteView, std::size_t) { visit_.text = "sha256"; }
@@ -450,7 +456,7 @@ Elements page_elements() {
   return elements;
 }
 
-constexpr std::size_t kElements = 31;
+constexpr std::size_t kElements = 32;
 
 TEST(XmlSchema, NamesWhatTheLayoutNames) {
   const Elements layout = layout_elements();

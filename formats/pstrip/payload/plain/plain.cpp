@@ -10,7 +10,10 @@ using namespace plain;
 class PlainReader final : public GeometryReader {
  public:
   void read_head(ReadIo& io, BaseHead& head) override { head_fields(io, head); }
-  void read_head(ReadIo& io, PacketHead& head) override { head_fields(io, head); }
+  void read_head(ReadIo& io, PacketHead& head, std::span<const ProgressiveMesh> meshes) override {
+    head_fields(io, head);
+    if (head.mesh < meshes.size()) growth_fields(io, head, meshes[head.mesh]);
+  }
   bool read(ReadIo& io, const BaseHead& head, ProgressiveMesh& mesh) override {
     return read_arrays(io, head, mesh, {});
   }
@@ -46,10 +49,12 @@ class PlainCodec final : public GeometryCodec {
     const std::uint64_t positions = mesh.placement == Placement::optimal ? 2 : 1;
     std::uint64_t wedge_bytes = sizeof(Index);
     for (const Attribute& a : mesh.wedge_attributes) wedge_bytes += a.element_bytes();
-    const std::uint64_t columns = mesh.single_wedges ? 1 : 3;
+    const bool grows = mesh.encoding == MapEncoding::triangles;
+    const std::uint64_t columns = (mesh.single_wedges ? 1 : 3) + (grows ? 1 : 0);
+    const std::uint64_t corners = grows ? full_map_entries(mesh) : 0;
     // What is left of the packets is reassigned wedges, few, and map offsets.
     const std::uint64_t fixed =
-        packets * kPacketHeadBytes + wedges * wedge_bytes +
+        packets * kPacketHeadBytes + wedges * wedge_bytes + corners * sizeof(Index) +
         vsplits * (columns * sizeof(Index) + positions * mesh.position.element_bytes());
     return bytes > fixed ? (bytes - fixed) / sizeof(Index) : 0;
   }

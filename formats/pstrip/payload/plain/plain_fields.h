@@ -3,6 +3,7 @@
 #include <concepts>
 
 #include "formats/pstrip/payload/geometry.h"
+#include "formats/pstrip/payload/predicates.h"
 
 // For formats/pstrip/payload/plain: the records of BASE and PCKT as they stand in the file, once
 // for reading, writing, sizing and locating. [spec/container.md §7]
@@ -31,6 +32,16 @@ void head_fields(Io& io, Head& head) {
   }
 }
 
+/// The head of a PCKT goes on when its mesh has a map of triangles.
+template <class Io, class Head>
+void growth_fields(Io& io, Head& head, const ProgressiveMesh& mesh) {
+  if constexpr (std::same_as<std::remove_const_t<Head>, PacketHead>) {
+    if (mesh.encoding != MapEncoding::triangles) return;
+    io.number(head.triangles);
+    io.zeros(4);
+  }
+}
+
 template <class Io, class M>
 void base_array_fields(Io& io, const BaseHead& h, M& mesh) {
   io.part(Part::base_positions);
@@ -45,6 +56,8 @@ void base_array_fields(Io& io, const BaseHead& h, M& mesh) {
   }
   io.part(Part::base_map);
   io.run(mesh.base_map, 0, h.map_entries);
+  io.align();
+  if (has_triangle_groups(mesh)) io.run(mesh.triangle_group, 0, h.map_entries / 3);
   io.align();
 }
 
@@ -64,6 +77,9 @@ void packet_array_fields(Io& io, const PacketHead& h, M& mesh, const PacketStart
   // With single wedges there is one new wedge a vsplit: the same list serves both forms.
   io.run(mesh.wedge_offset_counts, start.offset_count, h.wedges);
   io.align();
+  const bool grows = mesh.encoding == MapEncoding::triangles;
+  if (grows) io.column(mesh.vsplits, &Vsplit::triangles, start.vsplit, h.vsplits);
+  io.align();
   io.part(Part::positions);
   io.run(mesh.position, start.vertices, h.vsplits);
   io.align();
@@ -82,6 +98,12 @@ void packet_array_fields(Io& io, const PacketHead& h, M& mesh, const PacketStart
   io.part(Part::map_offsets);
   io.run(mesh.map_offsets, start.map_offset, h.map_offsets);
   io.align();
+  io.part(Part::new_triangles);
+  if (grows) io.run(mesh.new_corners, start.new_corner, std::uint64_t{3} * h.triangles);
+  io.align();
+  if (has_triangle_groups(mesh))
+    io.run(mesh.triangle_group, (mesh.base_map.size() + start.new_corner) / 3, h.triangles);
+  io.align();
 }
 
 // ---- Both payloads at a time: a head and the arrays that it counts -------------------------
@@ -99,6 +121,7 @@ template <class Io, class Head>
 void payload_fields(Io& io, const Head& head, const ProgressiveMesh& mesh,
                     const PacketStart& start = {}) {
   head_fields(io, head);
+  growth_fields(io, head, mesh);
   array_fields(io, head, mesh, start);
 }
 

@@ -9,13 +9,18 @@ namespace {
 
 using namespace plain;
 
-/// The head of a chunk; nothing when the payload is shorter.
-template <class Head>
-std::optional<Head> head_of(const Chunk& chunk) {
+/// The head of a chunk; nothing when the payload is shorter or the mesh is not there.
+///
+/// mesh_of  mesh_of(i): mesh i, or null
+template <class Head, class MeshOf>
+std::optional<Head> head_of(const Chunk& chunk, MeshOf&& mesh_of) {
   FirstFault ignored;
   ReadIo io(chunk, 0, ignored);
   Head head;
   head_fields(io, head);
+  const ProgressiveMesh* const mesh = io.failed() ? nullptr : mesh_of(head.mesh);
+  if (mesh == nullptr) return std::nullopt;
+  growth_fields(io, head, *mesh);
   if (io.failed()) return std::nullopt;
   return head;
 }
@@ -67,7 +72,8 @@ class PlainWriter final : public GeometryWriter {
             packet.vsplits,
             end.wedges - start.wedges,
             static_cast<Index>(end.reassigned - start.reassigned),
-            static_cast<Index>(end.map_offset - start.map_offset)};
+            static_cast<Index>(end.map_offset - start.map_offset),
+            static_cast<Index>((end.new_corner - start.new_corner) / 3)};
   }
 
   const ProgressiveStrips& strips_;
@@ -94,8 +100,9 @@ class PlainLayout final : public GeometryLayout {
   template <class Head>
   static std::vector<PartMark> parts_of(const Chunk& chunk,
                                         std::span<const ProgressiveMesh> meshes) {
-    const std::optional<Head> head = head_of<Head>(chunk);
-    if (!head || head->mesh >= meshes.size()) return {};
+    const std::optional<Head> head =
+        head_of<Head>(chunk, [&](Index m) { return m < meshes.size() ? &meshes[m] : nullptr; });
+    if (!head) return {};
     PartIo io;
     payload_fields(io, *head, meshes[head->mesh]);
     if (io.size() != chunk.payload.size()) return {};
@@ -107,7 +114,7 @@ class PlainLayout final : public GeometryLayout {
   template <class Head>
   static std::uint64_t position_in(const Chunk& chunk, const ProgressiveMesh& mesh,
                                    const void* list, std::uint64_t element) {
-    const std::optional<Head> head = head_of<Head>(chunk);
+    const std::optional<Head> head = head_of<Head>(chunk, [&](Index) { return &mesh; });
     if (!head) return 0;
     LocateIo io(list);
     payload_fields(io, *head, mesh);
