@@ -34,7 +34,7 @@ void for_each_triangle(const LevelView& level, Visit&& visit);
 /// Refers to the mesh, which must outlive it and may grow (a StreamDecoder appends packets). Its
 /// records must be safe, as both readers guarantee: parents, reassigned wedges and map offsets in
 /// range, no map offset that of a restart, every chain of the base map ending at a wedge; of a map
-/// of triangles, new corners in range and a group for each triangle, or none at all.
+/// of triangles, new corners in range and a group of the mesh for each triangle, or none at all.
 class Level {
  public:
   /// The base. Cost O(base and map size).
