@@ -12,6 +12,7 @@
 #include "formats/pstrip/container/binary.h"
 #include "formats/pstrip/container/chunk_table.h"
 #include "tests/support/meshes.h"
+#include "tests/support/progressive.h"
 #include "tests/support/shown.h"
 
 namespace pstrips {
@@ -142,6 +143,38 @@ TEST(StreamDecoder, ShowsTheSameWhateverThePieces) {
     EXPECT_TRUE(decoder.complete());
     EXPECT_FALSE(decoder.end());
     EXPECT_EQ(decoder.model()->meshes, decode(s.strips)->meshes);
+  }
+}
+
+// Made by hand of random records, so that the file has every liberty of the format.
+TEST(StreamDecoder, DerivesTheStripsOfMapsThatGrow) {
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const ProgressiveStrips strips =
+        test::random_progressive(seed, {.meshes = 2,
+                                        .vsplits = 20,
+                                        .encoding = MapEncoding::triangles,
+                                        .placement = static_cast<Placement>(seed % 2),
+                                        .single_wedges = seed % 3 == 0,
+                                        .scene = seed % 2 == 0});
+    const Bytes file = write_binary(strips).value();
+    StreamDecoder decoder;
+    for (std::size_t at = 0; at < file.size(); at += 100) {
+      ASSERT_TRUE(
+          decoder.feed(ByteView(file).subspan(at, std::min<std::size_t>(100, file.size() - at))));
+      if (!decoder.update()) continue;
+      std::uint64_t derived = 0;
+      for (Index m = 0; m < 2; ++m) {
+        DisplayStrips display;
+        decoder.mesh(m).append_display(display);
+        const Level& now = decoder.mesh(m).level();
+        ASSERT_EQ(test::triangles_of(display, now), test::triangles_of(now));
+        derived += decoder.mesh(m).derived_strips();
+      }
+      ASSERT_EQ(decoder.totals().strips, derived);
+    }
+    ASSERT_TRUE(decoder.complete());
+    EXPECT_EQ(decoder.model()->meshes, decode(strips)->meshes);
   }
 }
 
