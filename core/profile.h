@@ -20,7 +20,8 @@ struct ProfileName {
   std::string_view name;  ///< in the XML variant, the media type and reports
 };
 /// The profiles that this build knows.
-inline constexpr ProfileName kProfiles[] = {{Profile::plain, "plain"}};
+inline constexpr ProfileName kProfiles[] = {{Profile::plain, "plain"},
+                                            {Profile::compact, "compact"}};
 
 constexpr std::string_view name_of(Profile profile) {
   return std::ranges::find(kProfiles, profile, &ProfileName::profile)->name;

@@ -71,7 +71,7 @@ constexpr Rule kRules[] = {
     {"PS1030", kError, "C-030", Stage::file,
      "The major version is the one that the specification defines.",
      noticed<Fault::version_unknown>, Verdict::unsupported, "X-004"},
-    {"PS1031", kError, "C-031", Stage::file, "profile is 0.", noticed<Fault::profile_unknown>,
+    {"PS1031", kError, "C-031", Stage::file, "profile is 0 or 1.", noticed<Fault::profile_unknown>,
      Verdict::unsupported, "X-005"},
     {"PS1032", kError, "C-032", Stage::file, "flags is 0.", noticed<Fault::flags_unknown>,
      Verdict::unsupported},

@@ -33,7 +33,7 @@ TEST(Validate, TellsFourAnswersApart) {
   corrupt.back() ^= std::byte{1};
   EXPECT_EQ(verdict_of(corrupt), Verdict::invalid);
   EXPECT_EQ(verdict_of(test::recut(test::roof(),
-                                   [](test::ChunkFile& f) { f.put("PSHD", 4, std::uint8_t{1}); })),
+                                   [](test::ChunkFile& f) { f.put("PSHD", 4, std::uint8_t{2}); })),
             Verdict::unsupported);
   ValidateOptions small;
   small.limits.vertices = 6;

@@ -19,9 +19,8 @@ namespace pstrips::inline formats {
 /// Writes a whole file, chunk by chunk. The same strips give the same bytes.
 ///
 /// Precondition: `strips` is complete and `check(strips)` holds (formats/pstrip/payload/check.h).
-/// errors  over_limit when a chunk would exceed 2^31 - 1 bytes, before anything is written; those
-/// of
-///         the sink
+/// errors  bad_argument for what the profile cannot hold, over_limit when a chunk would exceed
+///         2^31 - 1 bytes, both before anything is written; those of the sink
 /// cost    O(file); memory for the largest chunk
 Result<void> write_binary(const ProgressiveStrips& strips, ByteSink& out);
 /// The same into memory.

@@ -40,7 +40,9 @@ Result<void> write_chunks(const PayloadEncoder& encoder, ByteSink& out) {
 
 Result<void> write_binary(const ProgressiveStrips& strips, ByteSink& out) {
   assert(strips.complete && check(strips));
-  return write_chunks(PayloadEncoder(strips), out);
+  const Result<PayloadEncoder> encoder = PayloadEncoder::start(strips);
+  if (!encoder) return tl::unexpected<Error>(encoder.error());
+  return write_chunks(*encoder, out);
 }
 
 Result<Bytes> write_binary(const ProgressiveStrips& strips) {
@@ -49,10 +51,11 @@ Result<Bytes> write_binary(const ProgressiveStrips& strips) {
 }
 
 Result<Bytes> write_binary_unchecked(const ProgressiveStrips& strips) {
-  const PayloadEncoder encoder(strips);
+  const Result<PayloadEncoder> encoder = PayloadEncoder::start(strips);
+  if (!encoder) return tl::unexpected<Error>(encoder.error());
   BytesSink out;
-  out.reserve(encoder.header().file_bytes);
-  if (const Result<void> ok = write_chunks(encoder, out); !ok)
+  out.reserve(encoder->header().file_bytes);
+  if (const Result<void> ok = write_chunks(*encoder, out); !ok)
     return tl::unexpected<Error>(ok.error());
   return std::move(out).take();
 }

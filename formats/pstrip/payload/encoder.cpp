@@ -22,8 +22,15 @@ IndexRow row_of(const Packet& packet) {
 
 }  // namespace
 
-PayloadEncoder::PayloadEncoder(const ProgressiveStrips& strips)
-    : strips_(strips), geometry_(layout_of(strips.profile).writer(strips)) {
+Result<PayloadEncoder> PayloadEncoder::start(const ProgressiveStrips& strips) {
+  auto geometry = layout_of(strips.profile).writer(strips);
+  if (!geometry) return tl::unexpected<Error>(geometry.error());
+  return PayloadEncoder(strips, std::move(*geometry));
+}
+
+PayloadEncoder::PayloadEncoder(const ProgressiveStrips& strips,
+                               std::unique_ptr<GeometryWriter> geometry)
+    : strips_(strips), geometry_(std::move(geometry)) {
   for (const Image& image : strips.scene.images) embedded_.push_back(image.data.empty() ? 0 : 1);
   for (const BaseLevel& base : strips.bases) rows_.push_back(row_of(base));
   for (const Packet& packet : strips.packets) rows_.push_back(row_of(packet));

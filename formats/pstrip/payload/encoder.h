@@ -24,7 +24,8 @@ struct PlannedChunk {
 /// strips  outlives the encoder
 class PayloadEncoder {
  public:
-  explicit PayloadEncoder(const ProgressiveStrips& strips);
+  /// errors  what the profile cannot hold
+  static Result<PayloadEncoder> start(const ProgressiveStrips& strips);
 
   /// In file order.
   const std::vector<PlannedChunk>& chunks() const { return chunks_; }
@@ -34,6 +35,7 @@ class PayloadEncoder {
   void write(const PlannedChunk& chunk, std::span<std::byte> payload) const;
 
  private:
+  PayloadEncoder(const ProgressiveStrips& strips, std::unique_ptr<GeometryWriter> geometry);
   void plan_chunks();
   void plan(const ChunkType& type, std::size_t element);
   std::size_t elements(ChunkOf of) const;

@@ -1,5 +1,6 @@
 #include "formats/pstrip/payload/geometry.h"
 
+#include "formats/pstrip/payload/compact/compact.h"
 #include "formats/pstrip/payload/plain/plain.h"
 
 namespace pstrips::inline formats {
@@ -9,7 +10,8 @@ struct ProfileCodec {
   Profile profile;
   const GeometryCodec& (*codec)();
 };
-constexpr ProfileCodec kCodecs[] = {{Profile::plain, plain_codec}};
+constexpr ProfileCodec kCodecs[] = {{Profile::plain, plain_codec},
+                                    {Profile::compact, compact_codec}};
 static_assert(std::ranges::equal(kCodecs, kProfiles, {}, &ProfileCodec::profile,
                                  &ProfileName::profile));
 

@@ -6,6 +6,7 @@
 
 #include "core/progressive_strips.h"
 #include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/container/header.h"
 #include "formats/pstrip/container/part.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/io.h"
@@ -51,8 +52,9 @@ class GeometryReader {
   /// wedge_offset_counts, map_offsets, reassigned, new_corners, triangle_group and the attributes
   /// what they bring. Counts need not add up yet.
   ///
+  /// head   gets the counts that the records tell and read_head() did not
   /// start  where the lists of the mesh end now
-  virtual bool read(layout::ReadIo& io, const PacketHead& head, ProgressiveMesh& mesh,
+  virtual bool read(layout::ReadIo& io, PacketHead& head, ProgressiveMesh& mesh,
                     const PacketStart& start) = 0;
 
   /// Some numbers of the mesh have bits that its packets leave out; FINE brings them.
@@ -66,7 +68,8 @@ class GeometryReader {
 /// rest.
 class GeometryCodec {
  public:
-  virtual std::unique_ptr<GeometryReader> reader() const = 0;
+  /// header  of the file: no more is granted than it announces
+  virtual std::unique_ptr<GeometryReader> reader(const FileHeader& header) const = 0;
 
   /// No payload of a PCKT is shorter, and none of a BASE.
   virtual std::uint64_t min_packet_bytes() const = 0;

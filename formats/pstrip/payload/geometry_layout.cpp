@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "formats/pstrip/payload/compact/compact.h"
 #include "formats/pstrip/payload/plain/plain.h"
 
 namespace pstrips::inline formats {
@@ -11,7 +12,8 @@ struct ProfileLayout {
   Profile profile;
   const GeometryLayout& (*layout)();
 };
-constexpr ProfileLayout kLayouts[] = {{Profile::plain, plain_layout}};
+constexpr ProfileLayout kLayouts[] = {{Profile::plain, plain_layout},
+                                      {Profile::compact, compact_layout}};
 static_assert(std::ranges::equal(kLayouts, kProfiles, {}, &ProfileLayout::profile,
                                  &ProfileName::profile));
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/progressive_strips.h"
+#include "core/result.h"
 #include "formats/pstrip/container/chunks.h"
 #include "formats/pstrip/container/part.h"
 
@@ -39,7 +40,8 @@ struct PartMark {
 class GeometryLayout {
  public:
   /// strips  outlives the writer
-  virtual std::unique_ptr<GeometryWriter> writer(const ProgressiveStrips& strips) const = 0;
+  /// errors  what this profile cannot hold
+  virtual Result<std::unique_ptr<GeometryWriter>> writer(const ProgressiveStrips& strips) const = 0;
 
   /// Which bytes of the payload of a BASE or PCKT belong to what: marks ascending from 0. Empty
   /// when the payload does not fit its own counts.

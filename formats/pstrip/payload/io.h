@@ -303,6 +303,13 @@ class ReadIo {
     return false;
   }
 
+  /// The payload breaks a demand that its fields do not show; false.
+  bool refuse(Fault fault) {
+    report(fault, chunk_offset_);
+    failed_ = true;
+    return false;
+  }
+
   /// Reports what stopped the reading, or that bytes are left; false when either is so.
   bool finish() {
     if (failed_) return false;

@@ -319,7 +319,7 @@ TEST(Binary, RefusesBadFieldsAndSaysWhichDemandIsBroken) {
       random_progressive(11, {.scene = true, .faces = true, .order = true, .digest = true});
   const BadField kRows[] = {
       {"version", kHeaderChunk, 0, 2, Fault::version_unknown},
-      {"profile", kHeaderChunk, 4, 1, Fault::profile_unknown},
+      {"profile", kHeaderChunk, 4, 2, Fault::profile_unknown},
       {"flags", kHeaderChunk, 4, 0x10000, Fault::flags_unknown},
       {"more_meshes_than_chunks", kHeaderChunk, 8, 2, Fault::mesh_chunks},
       {"meshes_over_limit", kHeaderChunk, 8, 0xffff'ffff, Fault::over_limit},

@@ -484,7 +484,7 @@ TEST(XmlPage, HasTheWordsOfTheLayout) {
         std::ranges::replace(words, '|', ' ');
         layout.insert(name + ": " + words);
       }
-  EXPECT_EQ(page.size(), 5u);
+  EXPECT_EQ(page.size(), 6u);
   EXPECT_EQ(differences(page, layout), Lines{});
 }
 

@@ -253,7 +253,7 @@ const BadEdit kBadEdits[] = {
      Fault::version_unknown},
     {"version_malformed", "version=\"2.0\" profile", "version=\"2\" profile", ErrorCode::corrupt,
      Fault::xml_schema},
-    {"profile", "profile=\"plain\"", "profile=\"compact\"", ErrorCode::unsupported,
+    {"profile", "profile=\"plain\"", "profile=\"compressed\"", ErrorCode::unsupported,
      Fault::profile_unknown},
     {"element_unknown", "<map>", "<maps/><map>", ErrorCode::corrupt, Fault::xml_schema},
     {"element_missing", "<position ", "<wedge_attribute ", ErrorCode::corrupt, Fault::xml_schema},

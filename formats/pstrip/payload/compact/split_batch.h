@@ -87,15 +87,19 @@ struct BatchLimits {
   std::size_t vertices, faces;
 };
 
+/// For batches of which nothing but positions and faces is coded.
+inline constexpr auto kNothingElse = [](Index, Index) -> Result<void> { return {}; };
+
 /// One batch: for each vertex in order whether it splits, and how.
 ///
 /// split_of  the split of a vertex or null, asked for in the order of the batch; a reader gives
 ///           null always
+/// on_split  called with the vertex and the new one after each split; what it codes stands there
 /// errors    corrupt: more vertices or faces than the limits, a vertex off the grid, and bytes that
 ///           end early. The state is of no use then.
-template <class Coder, class SplitOf>
+template <class Coder, class SplitOf, class OnSplit = std::remove_const_t<decltype(kNothingElse)>>
 Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limits,
-                        SplitOf&& split_of) {
+                        SplitOf&& split_of, const OnSplit& on_split = kNothingElse) {
   std::vector<Index> order;
   order.reserve(std::min(state.order.size() * 2, limits.vertices));
   std::ranges::fill(state.split_around, std::uint8_t{0});
@@ -132,6 +136,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
       if (ring.vertex[i] != kNone && state.split_around[ring.vertex[i]] < 255)
         ++state.split_around[ring.vertex[i]];
     order.push_back(*added);
+    if (auto ok = on_split(vertex, *added); !ok) return ok;
   }
   state.order = std::move(order);
   return {};

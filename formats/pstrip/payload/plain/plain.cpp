@@ -17,7 +17,7 @@ class PlainReader final : public GeometryReader {
   bool read(ReadIo& io, const BaseHead& head, ProgressiveMesh& mesh) override {
     return read_arrays(io, head, mesh, {});
   }
-  bool read(ReadIo& io, const PacketHead& head, ProgressiveMesh& mesh,
+  bool read(ReadIo& io, PacketHead& head, ProgressiveMesh& mesh,
             const PacketStart& start) override {
     return read_arrays(io, head, mesh, start);
   }
@@ -34,7 +34,7 @@ class PlainReader final : public GeometryReader {
 
 class PlainCodec final : public GeometryCodec {
  public:
-  std::unique_ptr<GeometryReader> reader() const override {
+  std::unique_ptr<GeometryReader> reader(const FileHeader&) const override {
     return std::make_unique<PlainReader>();
   }
 

@@ -82,7 +82,7 @@ class PlainWriter final : public GeometryWriter {
 
 class PlainLayout final : public GeometryLayout {
  public:
-  std::unique_ptr<GeometryWriter> writer(const ProgressiveStrips& strips) const override {
+  Result<std::unique_ptr<GeometryWriter>> writer(const ProgressiveStrips& strips) const override {
     return std::make_unique<PlainWriter>(strips);
   }
   std::vector<PartMark> parts(const Chunk& chunk,

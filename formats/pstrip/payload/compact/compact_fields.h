@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/bytes.h"
+#include "formats/pstrip/payload/compact/base_code.h"
+#include "formats/pstrip/payload/compact/mesh_state.h"
+
+// For formats/pstrip/payload/compact: what stands before the run of codes in a BASE and a PCKT.
+// [spec/compact.md §4]
+
+namespace pstrips::inline formats {
+
+/// Seven bits a byte, low ones first; the top bit says that more follow.
+inline void put_varint(Bytes& out, std::uint64_t number) {
+  for (; number >= 0x80; number >>= 7)
+    out.push_back(static_cast<std::byte>((number & 0x7f) | 0x80));
+  out.push_back(static_cast<std::byte>(number));
+}
+
+/// A number of at most `bits` bits, in its shortest form.
+inline std::uint64_t take_varint(ByteReader& in, unsigned bits) {
+  std::uint64_t number = 0;
+  for (unsigned at = 0; at < bits; at += 7) {
+    const std::uint8_t byte = in.u8();
+    number |= std::uint64_t{byte & 0x7fu} << at;
+    if (byte >= 0x80) continue;
+    if ((byte == 0 && at > 0) || number >> bits != 0) break;
+    return number;
+  }
+  in.fail(ErrorCode::corrupt, "number is not in its shortest form");
+  return 0;
+}
+
+inline Index take_index(ByteReader& in) { return static_cast<Index>(take_varint(in, 32)); }
+
+/// What a PCKT holds.
+enum class PacketKind : std::uint8_t {
+  batch,     ///< splits of a batch
+  isolated,  ///< vertices without a parent
+};
+
+/// How the numbers of an attribute lie in cells: one number for both.
+constexpr std::uint64_t packed_cells(int exponent, bool exact) {
+  const auto zigzag = static_cast<std::uint64_t>(exponent < 0 ? -2 * exponent - 1 : 2 * exponent);
+  return zigzag << 1 | (exact ? 1u : 0u);
+}
+constexpr int exponent_of_packed(std::uint64_t packed) {
+  const auto zigzag = static_cast<int>(packed >> 1);
+  return (zigzag & 1) != 0 ? -(zigzag + 1) / 2 : zigzag / 2;
+}
+
+inline constexpr unsigned kPackedCellsBits = 14;
+
+/// As many as a mesh may have, so that what is learned of each stays small.
+inline constexpr unsigned kMaxColumns = 256;
+
+inline unsigned columns_of(const ProgressiveMesh& mesh) {
+  unsigned columns = 0;
+  for (const Attribute& a : mesh.wedge_attributes) columns += a.count;
+  return columns;
+}
+
+/// What both sides know of a base before it.
+inline BaseCounts base_counts_of(const ProgressiveMesh& mesh, Index map_entries) {
+  return {mesh.base_vertices, mesh.base_wedges,
+          map_entries / 3,    static_cast<Index>(mesh.groups.size()),
+          columns_of(mesh),   mesh.single_wedges};
+}
+
+/// Whether packets of this size are worth the pass over the mesh that each of them costs: a decoder
+/// need not take more.
+///
+/// vertices  visited by the packets so far
+constexpr bool is_too_much_work(std::uint64_t vertices, Index of_mesh) {
+  constexpr std::uint64_t kPerVertex = 256, kFree = 1u << 20;
+  return vertices > kPerVertex * of_mesh + kFree;
+}
+
+}  // namespace pstrips::inline formats

@@ -1,0 +1,326 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/result.h"
+#include "formats/pstrip/payload/compact/mesh_state.h"
+
+// For formats/pstrip/payload/compact: the wedges, groups and attributes that a split brings, once
+// for writing and for reading. [spec/compact.md §7]
+//
+// A wedge of the parent that corners of the new vertex show has three fates: it goes over to the
+// new vertex, or a new wedge comes from it, or, in a record that is not regular, several do.
+
+namespace pstrips::inline formats {
+
+/// What a record does beside the split of a vertex.
+struct SplitRecord {
+  std::vector<Index> moved;       ///< corners that the new vertex gets, as the split goes over them
+  std::vector<Index> kept;        ///< that the parent keeps, those of new faces aside
+  std::vector<Index> shown;       ///< the wedge of each moved one after the record
+  std::vector<Index> reassigned;  ///< wedges that it takes over
+  Index new_wedges = 0;
+  std::vector<Index> corners;  ///< wedges, three for each new face
+  std::vector<Index> groups;   ///< of the new faces; empty when the mesh has one group
+
+  void clear() {
+    for (auto* list : {&moved, &kept, &shown, &reassigned, &corners, &groups}) list->clear();
+    new_wedges = 0;
+  }
+};
+
+/// A number that is small nearly always.
+template <class Coder>
+Index code_count(Coder& coder, SymbolModel& model, Index count) {
+  constexpr unsigned kMany = SymbolModel::kSymbols - 1;
+  const unsigned coded = coder.symbol(model, std::min<Index>(count, kMany));
+  return coded < kMany ? coded : kMany + coder.raw(count - kMany, 31);
+}
+
+/// Where a new face touches the one beyond an edge that the third vertex has with the parent or the
+/// new vertex: the place in `corners`, those of one of the two, whose face has the third vertex
+/// before or behind it; their number if there is none. One that is turned the other way will do.
+inline std::size_t place_beside(const StarMesh& mesh, std::span<const Index> corners, Index third,
+                                bool before) {
+  for (const bool turned : {before, !before})
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      if (mesh.vertex_of(turned ? StarMesh::previous_in_face(corners[i])
+                                : StarMesh::next_in_face(corners[i])) == third)
+        return i;
+  return corners.size();
+}
+
+/// Which corner of a new face is whose.
+struct NewFace {
+  std::array<Index, 3> corner{};  ///< of the parent, the new vertex, the third
+  bool added_first = false;       ///< it is (parent, new, third)
+
+  NewFace(const StarMesh& mesh, Index face, Index parent, Index added) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Index vertex = mesh.vertex_of(3 * face + k);
+      corner[vertex == parent ? 0 : vertex == added ? 1 : 2] = 3 * face + k;
+    }
+    added_first = corner[1] == StarMesh::next_in_face(corner[0]);
+  }
+};
+
+/// The wedges of one split that was carried out already.
+template <class Coder>
+class WedgeCode {
+ public:
+  /// record  to write; a reader fills it, but for `moved` and `kept`, which are there
+  WedgeCode(Coder& coder, MeshState& state, Index parent, Index added, SplitRecord& record)
+      : coder_(coder), state_(state), parent_(parent), added_(added), record_(record) {
+    list_sources();
+  }
+
+  /// errors  corrupt: a wedge that is not there or not of its vertex, more wedges than the mesh has
+  Result<void> run() {
+    const std::size_t count = std::min<std::size_t>(sources_.size(), WedgeModels::kCounts - 1);
+    const bool regular =
+        coder_.bit(state_.models.regular[count], Coder::kReads ? false : is_regular());
+    if (auto ok = regular ? code_regular(count) : code_moved(); !ok) return ok;
+    reassign();
+    for (Index face = state_.faces; face < state_.mesh().face_count(); ++face)
+      if (auto ok = code_face(face, regular); !ok) return ok;
+    if (state_.wedges + record_.new_wedges > state_.max_wedges) return too_many();
+    return {};
+  }
+
+ private:
+  /// A wedge of the parent that moved corners show.
+  struct Source {
+    Index wedge;
+    bool stays;         ///< corners of the parent show it, too
+    Index wedge_after;  ///< of the moved corners; kNone: not one and the same
+  };
+  /// Wedges of a face by whom its corners belong to.
+  struct FaceWedges {
+    Index parent = kNone, added = kNone, third = kNone;
+    bool usable() const { return parent != kNone && added != kNone && third != kNone; }
+    friend bool operator==(const FaceWedges&, const FaceWedges&) = default;
+  };
+
+  static tl::unexpected<Error> too_many() {
+    return fail(ErrorCode::corrupt, "more wedges than the mesh has");
+  }
+  static tl::unexpected<Error> misplaced() {
+    return fail(ErrorCode::corrupt, "wedge is not one of its vertex");
+  }
+  Index first_new() const { return state_.wedges; }
+  Index coarse_wedge(std::size_t i) const { return state_.corner_wedge[record_.moved[i]]; }
+  Source* source_of(Index wedge) {
+    const auto found = std::ranges::find(sources_, wedge, &Source::wedge);
+    return found == sources_.end() ? nullptr : &*found;
+  }
+  bool is_taken(Index wedge) const {
+    return std::ranges::find(record_.reassigned, wedge) != record_.reassigned.end();
+  }
+
+  void list_sources() {
+    for (std::size_t i = 0; i < record_.moved.size(); ++i) {
+      const Index wedge = coarse_wedge(i);
+      if (source_of(wedge) != nullptr) continue;
+      const bool stays = std::ranges::any_of(
+          record_.kept, [&](Index c) { return state_.corner_wedge[c] == wedge; });
+      sources_.push_back({wedge, stays, kNone});
+    }
+  }
+
+  /// Whether each source has one fate, and new wedges are numbered as they appear.
+  bool is_regular() {
+    std::vector<Index> taken;
+    Index next = first_new();
+    for (Source& source : sources_) {
+      const auto first = std::ranges::find(
+          record_.moved, source.wedge, [&](Index corner) { return state_.corner_wedge[corner]; });
+      const Index after = record_.shown[static_cast<std::size_t>(first - record_.moved.begin())];
+      if (after == source.wedge && !source.stays)
+        taken.push_back(after);
+      else if (after != next++)
+        return false;
+      source.wedge_after = after;
+    }
+    for (std::size_t i = 0; i < record_.moved.size(); ++i)
+      if (record_.shown[i] != source_of(coarse_wedge(i))->wedge_after) return false;
+    for (const Index wedge : record_.corners) {
+      if (wedge > next) return false;
+      next += wedge == next ? 1 : 0;
+    }
+    return taken == record_.reassigned && next == first_new() + record_.new_wedges;
+  }
+
+  Result<void> code_regular(std::size_t count) {
+    next_new_ = first_new();
+    for (Source& source : sources_) {
+      const bool taken = !source.stays && coder_.bit(state_.models.reassigned[count],
+                                                     source.wedge_after == source.wedge);
+      source.wedge_after = taken ? source.wedge : next_new_++;
+      if constexpr (Coder::kReads)
+        if (taken) record_.reassigned.push_back(source.wedge);
+    }
+    if constexpr (Coder::kReads) {
+      for (std::size_t i = 0; i < record_.moved.size(); ++i)
+        record_.shown.push_back(source_of(coarse_wedge(i))->wedge_after);
+      record_.new_wedges = next_new_ - first_new();
+    }
+    return {};
+  }
+
+  static unsigned bits_for(Index largest) { return static_cast<unsigned>(std::bit_width(largest)); }
+
+  /// Corner by corner.
+  Result<void> code_moved() {
+    record_.new_wedges = code_count(coder_, state_.models.new_wedges, record_.new_wedges);
+    if (std::uint64_t{state_.wedges} + record_.new_wedges > state_.max_wedges) return too_many();
+    next_new_ = first_new() + record_.new_wedges;
+    if (auto ok = code_taken(); !ok) return ok;
+    for (Source& source : sources_) source.wedge_after = kNone;
+    if constexpr (Coder::kReads) record_.shown.assign(record_.moved.size(), 0);
+    for (std::size_t i = 0; i < record_.moved.size(); ++i) {
+      const Index wedge = coarse_wedge(i);
+      const bool keeps = record_.shown[i] == wedge;
+      const Index coded = coder_.raw(keeps ? record_.new_wedges : record_.shown[i] - first_new(),
+                                     bits_for(record_.new_wedges));
+      if (coded > record_.new_wedges || (coded == record_.new_wedges && !is_taken(wedge)))
+        return misplaced();
+      const Index after = coded == record_.new_wedges ? wedge : first_new() + coded;
+      if constexpr (Coder::kReads) record_.shown[i] = after;
+      if (Source* const source = source_of(wedge); source->wedge_after == kNone)
+        source->wedge_after = after;
+    }
+    return {};
+  }
+
+  Result<void> code_taken() {
+    const auto wanted = static_cast<std::uint32_t>(record_.reassigned.size());
+    const std::uint32_t count = code_count(coder_, state_.models.taken, wanted);
+    if (count > state_.wedges) return misplaced();
+    std::vector<Index> taken;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Index wedge =
+          coder_.raw(Coder::kReads ? 0 : record_.reassigned[i], bits_for(state_.wedges));
+      const bool is_shown = std::ranges::any_of(
+          record_.kept, [&](Index c) { return state_.corner_wedge[c] == wedge; });
+      if (wedge >= state_.wedges || state_.wedge_vertex[wedge] != parent_ || is_shown ||
+          std::ranges::find(taken, wedge) != taken.end())
+        return misplaced();
+      taken.push_back(wedge);
+    }
+    if constexpr (Coder::kReads) record_.reassigned = std::move(taken);
+    return {};
+  }
+
+  void reassign() {
+    for (const Index wedge : record_.reassigned) state_.wedge_vertex[wedge] = added_;
+  }
+
+  /// The wedge of the third vertex beside a corner.
+  Index wedge_beside(Index corner, Index third) const {
+    const Index next = StarMesh::next_in_face(corner);
+    return state_
+        .corner_wedge[state_.mesh().vertex_of(next) == third ? next
+                                                             : StarMesh::previous_in_face(corner)];
+  }
+
+  /// The face's wedges as the face beyond the edge of the new vertex and the third has them.
+  FaceWedges as_added(Index third, bool added_first) const {
+    const std::size_t i = place_beside(state_.mesh(), record_.moved, third, added_first);
+    if (i == record_.moved.size()) return {};
+    const Index coarse = coarse_wedge(i), shown = record_.shown[i];
+    // One that went over is no longer the parent's.
+    return {coarse == shown ? kNone : coarse, shown, wedge_beside(record_.moved[i], third)};
+  }
+
+  /// The same of the parent and the third.
+  FaceWedges as_kept(Index third, bool added_first, bool regular) {
+    const std::size_t i = place_beside(state_.mesh(), record_.kept, third, !added_first);
+    if (i == record_.kept.size()) return {};
+    const Index corner = record_.kept[i], wedge = state_.corner_wedge[corner];
+    return {wedge, new_wedge_from(wedge, regular), wedge_beside(corner, third)};
+  }
+
+  /// The new wedge that comes from one of the parent, or the next one that nothing shows yet.
+  Index new_wedge_from(Index wedge, bool regular) {
+    if (const Source* const source = source_of(wedge);
+        source != nullptr && source->wedge_after != kNone && source->wedge_after != wedge)
+      return source->wedge_after;
+    return regular ? next_new_ : kNone;
+  }
+
+  Result<void> code_face(Index face, bool regular) {
+    const NewFace corners(state_.mesh(), face, parent_, added_);
+    const Index third = state_.mesh().vertex_of(corners.corner[2]);
+    FaceWedges beyond = as_added(third, corners.added_first);
+    const FaceWedges kept = as_kept(third, corners.added_first, regular);
+    if (beyond.parent == kNone) beyond.parent = kept.parent;
+    const auto place = [&](unsigned k) { return corners.corner[k] - 3 * state_.faces; };
+    FaceWedges wanted;
+    if constexpr (!Coder::kReads)
+      wanted = {record_.corners[place(0)], record_.corners[place(1)], record_.corners[place(2)]};
+    const Result<FaceWedges> coded = code_wedges(wanted, beyond, kept, third, regular);
+    if (!coded) return tl::unexpected<Error>(coded.error());
+    if (regular && coded->added == next_new_) ++next_new_;
+    if constexpr (Coder::kReads) {
+      record_.corners.resize(std::size_t{3} * (face + 1 - state_.faces));
+      record_.corners[place(0)] = coded->parent;
+      record_.corners[place(1)] = coded->added;
+      record_.corners[place(2)] = coded->third;
+      record_.new_wedges = next_new_ - first_new();
+    }
+    return {};
+  }
+
+  Result<FaceWedges> code_wedges(const FaceWedges& wanted, const FaceWedges& beyond,
+                                 const FaceWedges& kept, Index third, bool regular) {
+    WedgeModels& models = state_.models;
+    const unsigned agree = !beyond.usable() ? 0 : beyond == kept ? 1 : 2;
+    if (beyond.usable() && coder_.bit(models.as_new[agree], wanted == beyond)) return beyond;
+    if (kept.usable() && agree != 1 && coder_.bit(models.as_kept[agree], wanted == kept))
+      return kept;
+    const Index end = next_new_ + (regular ? 1 : 0);
+    const auto named = [&](Index wedge) { return coder_.raw(wedge, bits_for(end)); };
+    const FaceWedges out{named(wanted.parent), named(wanted.added), named(wanted.third)};
+    const auto is_of = [&](Index wedge, Index vertex) {
+      return wedge < state_.wedges ? state_.wedge_vertex[wedge] == vertex
+                                   : wedge < end && vertex == added_;
+    };
+    if (!is_of(out.parent, parent_) || !is_of(out.added, added_) || !is_of(out.third, third))
+      return misplaced();
+    return out;
+  }
+
+  Coder& coder_;
+  MeshState& state_;
+  const Index parent_, added_;
+  SplitRecord& record_;
+  std::vector<Source> sources_;
+  Index next_new_ = 0;  // the first wedge that nothing shows yet, or past the last
+};
+
+/// The groups of the new faces of a split. Precondition: the mesh has several.
+template <class Coder>
+void code_groups(Coder& coder, MeshState& state, Index parent, Index added, SplitRecord& record) {
+  const StarMesh& mesh = state.mesh();
+  if constexpr (Coder::kReads) record.groups.assign(mesh.face_count() - state.faces, 0);
+  for (Index face = state.faces; face < mesh.face_count(); ++face) {
+    const NewFace corners(mesh, face, parent, added);
+    const Index third = mesh.vertex_of(corners.corner[2]);
+    Index beside = 0;
+    if (const auto i = place_beside(mesh, record.moved, third, corners.added_first);
+        i < record.moved.size())
+      beside = state.face_group[record.moved[i] / 3];
+    else if (const auto k = place_beside(mesh, record.kept, third, !corners.added_first);
+             k < record.kept.size())
+      beside = state.face_group[record.kept[k] / 3];
+    Index& group = record.groups[face - state.faces];
+    const auto bits = static_cast<unsigned>(std::bit_width(state.groups - 1));
+    group = coder.bit(state.models.same_group, group == beside)
+                ? beside
+                : std::min(coder.raw(group, bits), state.groups - 1);
+  }
+}
+
+}  // namespace pstrips::inline formats
