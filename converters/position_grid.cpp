@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "formats/pstrip/payload/compact/cells.h"
 
@@ -129,7 +130,7 @@ Result<PositionGrid> position_grid(const Model& model, unsigned bits) {
     const Attribute& position = model.meshes[m].position;
     const ComponentType type = position.type;
     any_floats = any_floats || is_float(type);
-    const bool fits = bits > 0 ? type == ComponentType::f32 : is_float(type) || size_of(type) < 4;
+    const bool fits = is_float(type) || (bits == 0 && size_of(type) < 4);
     if (!fits)
       return fail(ErrorCode::unsupported,
                   "positions of type " + std::string(name_of(type)) +
@@ -147,17 +148,22 @@ Result<PositionGrid> position_grid(const Model& model, unsigned bits) {
 }
 
 double move_to_grid(Mesh& mesh, const PositionGrid& grid) {
-  Attribute& position = mesh.position;
-  const PositionCells cells(grid, position.type);
-  Attribute at = one_element(position);
+  const Attribute from = std::exchange(mesh.position, mesh.position.format());
+  Attribute& to = mesh.position;
+  to.type = ComponentType::f32;
+  to.data.resize(to.element_bytes() * from.elements());
+  const PositionCells cells(grid, to.type);
   double farthest = 0;
-  for (std::size_t v = 0; v < position.elements(); ++v) {
+  for (std::size_t v = 0; v < from.elements(); ++v) {
     double square = 0;
-    for (std::size_t c = 0; c < axes_of(position); ++c) {
-      const std::int32_t cell = cells.cell_of(bits_of(position, v, c), static_cast<unsigned>(c));
-      const double to = number_of(cells, at, cell, c), moved = to - component(position, v, c);
+    for (std::size_t c = 0; c < from.count; ++c) {
+      const double x = component(from, v, c);
+      set_component(to, v, c, x);
+      if (c >= 3) continue;
+      const auto axis = static_cast<unsigned>(c);
+      set_bits(to, v, c, cells.component(cells.cell_of(bits_of(to, v, c), axis), axis));
+      const double moved = component(to, v, c) - x;
       square += moved * moved;
-      set_component(position, v, c, to);
     }
     farthest = std::max(farthest, square);
   }

@@ -15,12 +15,13 @@ inline constexpr unsigned kMinPositionBits = 8, kMaxPositionBits = 24;
 /// bits    kMinPositionBits to kMaxPositionBits: points on which positions are to be put, 2^bits of
 ///         them along the longest side of a box around all meshes. 0: cells for positions that stay
 ///         as they are, small enough that levels show no steps
-/// errors  unsupported: positions of an integer type of 32 bits; with bits all that are no f32, or
-///         not finite
+/// errors  unsupported: positions of an integer type of 32 bits; with bits all that are no floats,
+///         or not finite
 Result<PositionGrid> position_grid(const Model& model, unsigned bits);
 
-/// Moves each vertex to the point of the grid next to it.
+/// Moves each vertex to the point of the grid next to it. Positions become f32.
 ///
+/// grid     of bits, for floats
 /// returns  the largest distance that one has moved, model units
 double move_to_grid(Mesh& mesh, const PositionGrid& grid);
 
