@@ -70,6 +70,15 @@ void report_simplification(const Streams& io, const std::vector<SimplifyReport>&
   }
 }
 
+// How far quantization has moved vertices.
+void report_grid(const Conversion& job) {
+  double moved = 0;
+  for (const SimplifyReport& r : job.simplified) moved = std::max(moved, r.moved);
+  if (job.io.quiet || job.encode.position_bits == 0) return;
+  job.io.err << fmt::format("pstrips: positions moved by at most {:.3g} to a grid of {} bits\n",
+                            moved, job.encode.position_bits);
+}
+
 // What is unusual about the model.
 MeshStatistics statistics_of(const Model& model) {
   MeshStatistics all;
@@ -93,10 +102,11 @@ Result<void> check_target(const Options& options, FileFormat target) {
   return {};
 }
 
-// Strips to strips keeps the records; anything else goes through the mesh.
+// Strips to strips of one profile keeps the records; anything else goes through the mesh.
 bool keeps_records(const Options& options, const LoadedFile& file, FileFormat target) {
-  return file.is_progressive() && is_progressive(target) && !options.level.given() &&
-         options.attributes.empty();
+  if (!file.is_progressive() || !is_progressive(target)) return false;
+  return !options.level.given() && options.attributes.empty() &&
+         !options.encode.asks_for_another(std::get<ProgressiveStrips>(file.content).profile);
 }
 
 Result<void> check_input(const Options& options, const LoadedFile& file, FileFormat target) {
@@ -179,6 +189,7 @@ ExitCode finish(const Conversion& job, std::uint64_t input_bytes, const Result<S
                fmt::format("{} ({}) ->", escaped(options.input), byte_size(input_bytes)));
   if (options.verbose || !options.output.is_stdout())
     report_simplification(io, simplified, options.verbose);
+  if (!options.output.is_stdout()) report_grid(job);
   return kOk;
 }
 

@@ -14,8 +14,8 @@
 #include "cli/number_options.h"
 #include "codecs/stripify/stripify.h"
 #include "converters/bounding_box.h"
+#include "converters/position_grid.h"
 #include "converters/scene_level.h"
-#include "core/profile.h"
 
 namespace pstrips::cli {
 
@@ -176,16 +176,20 @@ void StripOptionsGroup::note_time_limit(const Streams& io) const {
 void EncodeOptionsGroup::add_to(CLI::App& app) {
   std::vector<std::string> names;
   for (const NamedStripifier& s : stripifiers()) names.emplace_back(s.name);
-  std::vector<std::string> profiles;
-  for (const ProfileName& p : kProfiles) profiles.emplace_back(p.name);
   const auto add = [&](const char* group, CLI::Option* option) {
     members.push_back(option->group(group));
     return option;
   };
+  const auto add_of_strips = [&](const char* group, CLI::Option* option) {
+    of_strips.push_back(add(group, option));
+    return option;
+  };
+  add_profile(app);
   auto* share = add(kProgressiveGroup, app.add_option("--base", base,
                                                       "Triangles of the base, or percent of the "
-                                                      "model's"));
-  share->type_name("N|N%")->capture_default_str();
+                                                      "model's; compact files have 400 at most "
+                                                      "unless told otherwise"));
+  share->type_name("N|N%")->default_str("5%");
   takes_number(add(kProgressiveGroup,
                    app.add_option("--base-error", base_error,
                                   "Instead: how far base and model may be apart, both ways, in "
@@ -199,16 +203,17 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
                {"subset", "optimal"});
   add(kProgressiveGroup, app.add_flag("--keep-order", options.keep_order,
                                       "Keep the order of vertices, wedges and faces"));
-  takes_one_of(add(kProgressiveGroup, app.add_option("--stripifier", options.stripifier,
-                                                     "How triangles become strips"))
+  takes_one_of(add_of_strips(kProgressiveGroup, app.add_option("--stripifier", options.stripifier,
+                                                               "How triangles become strips"))
                    ->capture_default_str(),
                names);
   stripping.add_to(app);
-  takes_one_of(add(kRareProgressiveGroup,
-                   app.add_option("--strips", strips,
-                                  "Entries of the index map: wedges only, or offsets too"))
-                   ->capture_default_str(),
-               {"naive", "offset"});
+  takes_one_of(
+      add_of_strips(kRareProgressiveGroup,
+                    app.add_option("--strips", strips,
+                                   "Entries of the index map: wedges only, or offsets too"))
+          ->capture_default_str(),
+      {"naive", "offset"});
   takes_one_of(add(kRareProgressiveGroup,
                    app.add_option("--metric", metric,
                                   "What levels are nearest by: the faces that are left, or with "
@@ -221,16 +226,36 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
                      "full swing of an attribute counts for; may be repeated"))
       ->allow_extra_args(false)
       ->type_name("NAME=X");
-  takes_count(add(kRareProgressiveGroup,
-                  app.add_option("--level-cost", options.level_cost,
-                                 "Indices that a step counts for which tears a strip at coarser "
-                                 "levels"))
-                  ->capture_default_str(),
-              0, kMaxLevelCost);
-  takes_one_of(
-      add(kRareProgressiveGroup, app.add_option("--profile", profile, "Profile of the file"))
+  takes_count(
+      add_of_strips(kRareProgressiveGroup,
+                    app.add_option("--level-cost", options.level_cost,
+                                   "Indices that a step counts for which tears a strip at coarser "
+                                   "levels"))
           ->capture_default_str(),
-      profiles);
+      0, kMaxLevelCost);
+}
+
+void EncodeOptionsGroup::add_profile(CLI::App& app) {
+  std::vector<std::string> profiles;
+  for (const ProfileName& p : kProfiles) profiles.emplace_back(p.name);
+  const auto add = [&](CLI::Option* option) {
+    members.push_back(option->group(kProgressiveGroup));
+    return option;
+  };
+  takes_one_of(add(app.add_option("--profile", profile,
+                                  "How geometry is coded: as arrays with their strips, or compact, "
+                                  "with strips that are made anew where they are drawn"))
+                   ->default_str("plain"),
+               profiles);
+  auto* bits = add(app.add_option("--position-bits", options.position_bits,
+                                  "Compact: move positions to a grid of 2^N steps that all meshes "
+                                  "share, 8 to 24"));
+  takes_count(bits, kMinPositionBits, kMaxPositionBits);
+  auto* exact = add(app.add_flag("--lossless", lossless,
+                                 "Compact: keep positions bit for bit; so it is without "
+                                 "--position-bits"));
+  exact->excludes(bits);
+  of_grids = {bits, exact};
 }
 
 std::string EncodeOptionsGroup::first_given() const {
@@ -259,10 +284,28 @@ Result<AttributeWeight> parse_weight(const std::string& text) {
   return out;
 }
 
+Result<void> does_nothing(const std::string& option, const char* why) {
+  return fail(ErrorCode::bad_argument, option + " does nothing for " + why);
+}
+
 }  // namespace
+
+Result<void> EncodeOptionsGroup::check_profile(Profile wanted) const {
+  if (wanted == Profile::plain) {
+    const std::string first = cli::first_given(of_grids);
+    if (first.empty()) return {};
+    return does_nothing(first, "the plain profile, which keeps positions as they are");
+  }
+  std::string first = cli::first_given(of_strips);
+  if (first.empty()) first = cli::first_given(stripping.members);
+  if (first.empty()) return {};
+  return does_nothing(first, "the compact profile, whose strips are made where they are drawn");
+}
 
 Result<EncodeOptions> EncodeOptionsGroup::get() const {
   EncodeOptions out = options;
+  if (profile) out.profile = profile_named(*profile).value_or(Profile::plain);
+  if (const auto fits = check_profile(out.profile); !fits) return tl::unexpected(fits.error());
   out.encoding = strips == "naive" ? MapEncoding::naive : MapEncoding::offset;
   const auto strip_options = stripping.get();
   if (!strip_options) return tl::unexpected(strip_options.error());
@@ -278,15 +321,16 @@ Result<EncodeOptions> EncodeOptionsGroup::get() const {
     out.base_error = base_error;
     return out;
   }
-  const auto count = parse_count(base);
-  const auto amount = parse_amount(base);
+  if (!base) return out;
+  const auto count = parse_count(*base);
+  const auto amount = parse_amount(*base);
   if (count)
     out.base_triangles = *count;
   else if (amount && amount->is_share && amount->number <= 1)
     out.base_share = amount->number;
   else
     return fail(ErrorCode::bad_argument,
-                "--base takes a number of triangles or a percentage: " + base);
+                "--base takes a number of triangles or a percentage: " + *base);
   return out;
 }
 

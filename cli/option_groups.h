@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "converters/decode.h"
 #include "converters/encode.h"
 #include "core/limits.h"
+#include "core/profile.h"
 
 namespace CLI {
 class App;
@@ -74,24 +76,33 @@ struct StripOptionsGroup {
   void note_time_limit(const Streams& io) const;
 };
 
-/// The options above and --strips, --stripifier, --base, --base-error, --placement, --metric,
-/// --attribute-weight, --keep-order, --profile
+/// The options above and --profile, --position-bits, --lossless, --strips, --stripifier,
+/// --level-cost, --base, --base-error, --placement, --metric, --attribute-weight, --keep-order
 struct EncodeOptionsGroup {
   EncodeOptions options;
   std::string placement = "subset";
   std::string metric = "memoryless";
   std::vector<std::string> attribute_weights;  ///< NAME=WEIGHT
   std::string strips = "offset";
-  std::string base = "5%";
+  std::optional<std::string> base;
   double base_error = -1;
-  std::string profile = "plain";
+  std::optional<std::string> profile;
+  bool lossless = false;
   StripOptionsGroup stripping;
   std::vector<const CLI::Option*> members;  ///< without those of `stripping`
+  std::vector<const CLI::Option*> of_strips,
+      of_grids;  ///< of those, what one profile has no use for
   void add_to(CLI::App& app);
-  /// Combines what was parsed. errors: bad_argument
+  /// Combines what was parsed. errors: bad_argument, also for options that the profile ignores
   Result<EncodeOptions> get() const;
   /// The first of all these options that the command line has, as "--base"; empty: none.
   std::string first_given() const;
+  /// Whether the command line asks for another profile than this one.
+  bool asks_for_another(Profile now) const { return profile && profile_named(*profile) != now; }
+
+ private:
+  void add_profile(CLI::App& app);
+  Result<void> check_profile(Profile wanted) const;
 };
 
 /// "--base" of the first option that the command line has; empty: none.

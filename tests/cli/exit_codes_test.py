@@ -41,6 +41,9 @@ CASES = [
     *((["convert", "tube.obj", "out.pstrip", "--base", base], 1, "", "--base")
       for base in ("", "%", "-1", "101%", "1.5", "ten", "5%x", "nan", "inf%")),
     (["convert", "tube.obj", "out.pstrip", "--base", "9", "--base-error", "1"], 1, "", "--base"),
+    *((["convert", "tube.obj", "out.pstrip", "--profile", "compact", "--position-bits", bits], 1, "",
+       f"{bits} is not a whole number from 8 to 24") for bits in ("7", "25", "x")),
+    (["convert", "tube.obj", "out.pstrip", "--position-bits", "9", "--lossless"], 1, "", "excludes"),
     *((["convert", "tube.obj", "out.pstrip", "--attribute-weight", weight], 1, "",
        "--attribute-weight") for weight in ("NORMAL", "=1", "A=", "A=x", "A=-1", "A=nan", "A=1e9")),
     (["convert", "tube.obj", "out.pstrip", "--placement", "free"], 1, "", "--placement"),
@@ -52,6 +55,12 @@ CASES = [
     (["convert", "tube.obj", "out.obj", "--ascii"], 1, "", "--ascii does nothing for a obj file"),
     (["convert", "tube.obj", "out.ply", "--gltf-strips"], 1, "", "--gltf-strips does nothing for a ply file"),
     (["convert", "good.pstrip", "out.pstripx", "--strips", "naive"], 1, "", "--strips does nothing to progressive"),
+    (["convert", "good.pstrip", "out.pstrip", "--profile", "plain"], 1, "", "--profile does nothing to progressive"),
+    *((["convert", "tube.obj", "out.pstrip", *option], 1, "", f"{option[0]} does nothing for the plain profile")
+      for option in (("--position-bits", "12"), ("--lossless",))),
+    *((["convert", "tube.obj", "out.pstrip", "--profile", "compact", *option], 1, "",
+       f"{option[0]} does nothing for the compact profile")
+      for option in (("--goal", "strips"), ("--strips", "naive"), ("--stripifier", "best"), ("--level-cost", "0"))),
     (["convert", "good.pstrip", "out.ply", "--level", "99"], 1, "", "--level 99: the file has levels 0 to "),
     (["extract", "good.pstrip", "out.ply", "--level", "99"], 1, "", "--level 99: the file has levels 0 to "),
     (["compare", "tube.obj", "tube.obj", "--triangles", "9"], 1, "", "a level does nothing: neither file has levels"),
@@ -98,6 +107,10 @@ CASES = [
     (["validate", "--ignore", "PS1006,PS1001", "good.pstrip"], 0, "valid (PS1006, PS1001 ignored)\n", ""),
     (["convert", "tube.obj", "out.pstrip", "--attribute-weight", "TEXCOORD=0.1"], 0, "", ""),
     (["inspect", "good.pstrip"], 0, "plain profile", ""),
+    (["convert", "tube.obj", "out.pstrip", "--profile", "compact"], 0, "", "-> out.pstrip ("),
+    (["convert", "good.pstrip", "out.pstrip", "--profile", "compact"], 0, "", "-> out.pstrip ("),
+    (["convert", "tube.obj", "out.pstrip", "--profile", "compact", "--position-bits", "12"], 0, "",
+     "positions moved by at most "),
     (["convert", "-o", "out.ply", "tube.obj"], 0, "", "-> out.ply ("),
     (["extract", "good.pstrip", "out.ply"], 0, "", "packet "),
     (["extract", "good.pstrip", "-o", "out.ply"], 0, "", "wrote out.ply ("),

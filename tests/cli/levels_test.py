@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 import unittest
 
 from support import GOLDEN, ProgramTest, bumpy_grid
@@ -48,6 +49,36 @@ class Levels(ProgramTest):
                                            r"[\d,]+ by flipped faces, [\d,]+ by flipped texture")
                 self.assertEqual(self.equivalence("grid.obj", "out.pstrip"), "exact")
                 self.run_program("validate", "-q", "out.pstrip")
+
+    def test_profiles(self):
+        for placement in ("subset", "optimal"):
+            self.run_program("convert", "-q", "grid.obj", "small.pstrip", "--keep-order", "--profile",
+                             "compact", "--placement", placement)
+            self.assertEqual(self.report("inspect", "small.pstrip")["profile"], "compact")
+            self.assertEqual(self.equivalence("grid.obj", "small.pstrip"), "exact")
+            self.run_program("validate", "-q", "small.pstrip")
+            self.assertLess(len(self.read("small.pstrip")), len(self.read("grid.pstrip")) / 2)
+        # From one profile to the other and back.
+        self.run_program("convert", "-q", "grid.pstrip", "small.pstrip", "--profile", "compact",
+                         "--keep-order", "--force")
+        self.run_program("convert", "-q", "small.pstrip", "back.pstrip", "--profile", "plain",
+                         "--keep-order")
+        self.assertEqual(self.report("inspect", "back.pstrip")["profile"], "plain")
+        self.assertEqual(self.equivalence("grid.obj", "back.pstrip"), "exact")
+        # Whatever keeps the records keeps the profile.
+        self.run_program("convert", "-q", "small.pstrip", "small.pstripx")
+        self.assertEqual(self.report("inspect", "small.pstripx")["profile"], "compact")
+
+    def test_position_bits(self):
+        sizes = []
+        for bits in (8, 12, 24):
+            done = self.run_program("convert", "grid.obj", "out.pstrip", "--profile", "compact",
+                                    "--position-bits", bits)
+            moved = float(re.search(r"moved by at most (\S+) to a grid", done.err)[1])
+            self.assertLess(moved, 40 * (2.0 ** -bits + 2.0 ** -23))
+            self.run_program("validate", "-q", "out.pstrip")
+            sizes.append(len(self.read("out.pstrip")))
+        self.assertEqual(sizes, sorted(sizes))
 
     def test_level(self):
         for command in ("extract", "convert"):
