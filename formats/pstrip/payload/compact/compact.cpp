@@ -56,17 +56,21 @@ class RecordReader {
 
   /// By wedge, then by offset.
   void take_offsets() {
-    for (Index wedge = wedges_; wedge < wedges_ + record_.new_wedges; ++wedge) {
-      const std::size_t first = mesh_.map_offsets.size();
-      for (std::size_t i = 0; i < record_.moved.size(); ++i)
-        if (record_.shown[i] == wedge) mesh_.map_offsets.push_back(record_.moved[i]);
-      sort_from(first);
-      mesh_.wedge_offset_counts.push_back(static_cast<Index>(mesh_.map_offsets.size() - first));
+    rewritten_.clear();
+    for (std::size_t i = 0; i < record_.moved.size(); ++i)
+      if (record_.shown[i] >= wedges_) rewritten_.emplace_back(record_.shown[i], record_.moved[i]);
+    std::ranges::sort(rewritten_);
+    const std::size_t first = mesh_.wedge_offset_counts.size();
+    mesh_.wedge_offset_counts.resize(first + record_.new_wedges);
+    for (const auto& [wedge, corner] : rewritten_) {
+      ++mesh_.wedge_offset_counts[first + wedge - wedges_];
+      mesh_.map_offsets.push_back(corner);
     }
   }
 
   ProgressiveMesh& mesh_;
   SplitRecord record_;
+  std::vector<std::pair<Index, Index>> rewritten_;  // wedge and corner
   Index wedges_;
 };
 

@@ -7,22 +7,38 @@
 #include "formats/pstrip/payload/compact/base_code.h"
 #include "formats/pstrip/payload/compact/fine.h"
 #include "formats/pstrip/payload/compact/split_state.h"
+#include "formats/pstrip/payload/compact/wedge_lists.h"
 #include "formats/pstrip/payload/predicates.h"
 
 namespace pstrips::inline formats {
 
+/// What is learned of one attribute as a whole.
+struct AttributeModels {
+  unsigned columns = 0;
+  std::array<BitModel, 2> same;  ///< as another wedge of the vertex has it; whether the last was
+  bool was_same = false;
+};
+
 /// All that is learned while the wedges of a mesh go by.
 struct WedgeModels {
   static constexpr unsigned kCounts = 4;  ///< of wedges that are split; more count as the last
-  static constexpr unsigned kSizes = 32;  ///< of the residual before, in bits
+  static constexpr unsigned kSizes = 26;  ///< of differences of cells, in bits
 
   std::array<BitModel, kCounts> regular;
-  std::array<BitModel, kCounts> reassigned;
-  SymbolModel new_wedges, taken;            ///< of a record that is not regular
-  std::array<BitModel, 3> as_new, as_kept;  ///< corners of a face as on either side of it
+  std::array<std::array<BitModel, 2>, kCounts> reassigned;  ///< one corner shows it, several
+  SymbolModel new_wedges, taken;                            ///< of a record that is not regular
+  SymbolModel unseen;                                       ///< new wedges that nothing shows
+  /// Corners of a face as on either side of it: what those say of each other, and whether the
+  /// parent and the third vertex have wedges that nothing shows.
+  std::array<std::array<BitModel, 4>, 3> as_new, as_kept;
+  // Places in a list of likely wedges.
+  std::array<SymbolModel, 2> of_parent, of_third;
+  SymbolModel of_added;
   BitModel same_group;
   SymbolModel isolated_wedges;
   std::array<NumberModel, 3> isolated_position;
+  std::vector<AttributeModels> attributes;
+  /// Residuals by how far apart the neighbours are.
   std::vector<std::array<NumberModel, kSizes>> column;
 };
 
@@ -36,9 +52,11 @@ struct MeshState {
         max_vertices(mesh.vertices),
         max_wedges(mesh.wedges),
         max_faces(static_cast<Index>(full_map_entries(mesh) / 3)) {
-    for (const Attribute& a : mesh.wedge_attributes) columns += a.count;
+    for (const Attribute& a : mesh.wedge_attributes) {
+      columns += a.count;
+      models.attributes.push_back({.columns = a.count, .same = {}});
+    }
     models.column.resize(columns);
-    last_residual.resize(columns);
   }
 
   SplitState splits;
@@ -48,20 +66,22 @@ struct MeshState {
   Index max_vertices, max_wedges, max_faces;  ///< at full resolution
   unsigned columns = 0;                       ///< components of all attributes together
   Index wedges = 0;
-  Index faces = 0;                          ///< whose wedges are known
-  std::vector<Index> corner_wedge;          ///< of each corner; empty with single wedges
-  std::vector<Index> wedge_vertex;          ///< likewise
-  std::vector<std::int32_t> wedge_cells;    ///< `columns` a wedge
-  std::vector<Index> face_group;            ///< empty with one group
-  std::vector<std::uint8_t> last_residual;  ///< bits, a column each
+  Index faces = 0;                        ///< whose wedges are known
+  std::vector<Index> corner_wedge;        ///< of each corner; empty with single wedges
+  WedgeLists lists;                       ///< likewise
+  std::vector<std::int32_t> wedge_cells;  ///< `columns` a wedge
+  std::vector<Index> face_group;          ///< empty with one group
   GridPoint last_isolated;
   WedgeModels models;
+  std::vector<Index> slot;  ///< scratch, a wedge each, to be checked before it is believed
 
   const StarMesh& mesh() const { return splits.mesh; }
   Index wedge_of(Index corner) const {
     return single_wedges ? splits.mesh.vertex_of(corner) : corner_wedge[corner];
   }
-  Index vertex_of_wedge(Index wedge) const { return single_wedges ? wedge : wedge_vertex[wedge]; }
+  Index vertex_of_wedge(Index wedge) const {
+    return single_wedges ? wedge : lists.vertex_of(wedge);
+  }
 
   /// The base, which was coded. Precondition: nothing is there yet.
   void start(const BaseMesh& base) {
@@ -75,7 +95,8 @@ struct MeshState {
     if (groups > 1) face_group = base.group;
     if (single_wedges) return;
     corner_wedge = base.corners;
-    wedge_vertex = base.wedge_vertex;
+    for (const Index v : base.wedge_vertex) lists.add(v);
+    for (const Index wedge : corner_wedge) ++lists.uses(wedge);
   }
 };
 

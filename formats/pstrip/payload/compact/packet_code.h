@@ -14,57 +14,91 @@
 
 namespace pstrips::inline formats {
 
-/// The attributes of one new wedge.
+/// The attributes of the new wedges of a record.
 template <class Coder>
 class AttributeCode {
  public:
-  AttributeCode(Coder& coder, MeshState& state) : coder_(coder), state_(state) {
-    predicted_.resize(state.columns);
-  }
+  AttributeCode(Coder& coder, MeshState& state) : coder_(coder), state_(state) {}
 
-  /// Starts a wedge: what is coded now is expected to lie in the middle of the wedges added.
-  void start() {
-    std::ranges::fill(predicted_, 0);
-    count_ = 0;
+  /// Starts on the wedges from `first` on.
+  void start(Index first) {
+    first_ = first;
+    neighbours_.assign(std::size_t{state_.wedges - first} * state_.columns, {});
+    counts_.assign(state_.wedges - first, 0);
   }
-  void add(Index wedge) {
-    const std::int32_t* const cells = row(wedge);
-    for (unsigned c = 0; c < state_.columns; ++c) predicted_[c] += cells[c];
-    ++count_;
-  }
-  /// A face that shows the wedge at `corner`: its other corners.
-  void add_face(Index corner) {
-    add(state_.wedge_of(StarMesh::next_in_face(corner)));
-    add(state_.wedge_of(StarMesh::previous_in_face(corner)));
-  }
-
-  bool is_empty() const { return count_ == 0; }
-
-  /// wanted  `columns` cells to write; null for a reader
-  void code(Index wedge, const std::int32_t* wanted) {
-    state_.wedge_cells.resize(std::size_t{wedge + 1} * state_.columns);
-    std::int32_t* const cells = state_.wedge_cells.data() + std::size_t{wedge} * state_.columns;
+  /// What is coded of a wedge is expected to lie in the middle of those that are added.
+  void add(Index wedge, Index neighbour) {
+    const std::int32_t* const cells = state_.wedge_cells.data() + place_of(neighbour);
+    Neighbours* const all = neighbours_.data() + place_of(wedge - first_);
     for (unsigned c = 0; c < state_.columns; ++c) {
-      const auto predicted =
-          static_cast<std::int32_t>(predicted_[c] / std::max<std::int64_t>(count_, 1));
-      std::uint8_t& before = state_.last_residual[c];
-      NumberModel& model = state_.models.column[c][before];
-      const std::int32_t residual =
-          model.code(coder_, wanted != nullptr ? wanted[c] - predicted : 0);
-      cells[c] = std::clamp(predicted + residual, -kMaxCell, kMaxCell);
-      const auto size = static_cast<std::uint32_t>(residual < 0 ? -residual : residual);
-      before = static_cast<std::uint8_t>(std::bit_width(size));
+      all[c].sum += cells[c];
+      all[c].least = std::min(all[c].least, cells[c]);
+      all[c].most = std::max(all[c].most, cells[c]);
+    }
+    ++counts_[wedge - first_];
+  }
+  /// A corner of a vertex that is new: the others of its face count.
+  void add_face(Index corner) {
+    const Index wedge = state_.wedge_of(corner);
+    if (wedge < first_) return;
+    add(wedge, state_.wedge_of(StarMesh::next_in_face(corner)));
+    add(wedge, state_.wedge_of(StarMesh::previous_in_face(corner)));
+  }
+
+  /// usual    a wedge where there is nothing else to go by, or kNone
+  /// sibling  a wedge that the vertex has already, or kNone
+  template <class CellsOf>
+  void code(Index usual, Index sibling, CellsOf&& cells_of) {
+    state_.wedge_cells.resize(place_of(state_.wedges));
+    for (Index wedge = first_; wedge < state_.wedges; sibling = wedge++) {
+      if (counts_[wedge - first_] == 0 && usual != kNone) add(wedge, usual);
+      code_wedge(wedge, sibling, cells_of(wedge));
     }
   }
 
  private:
-  const std::int32_t* row(Index wedge) const {
-    return state_.wedge_cells.data() + std::size_t{wedge} * state_.columns;
+  /// A component of the wedges that one is expected among.
+  struct Neighbours {
+    std::int64_t sum = 0;
+    std::int32_t least = kMaxCell, most = -kMaxCell;
+  };
+
+  std::size_t place_of(Index wedge) const { return std::size_t{wedge} * state_.columns; }
+
+  /// wanted  `columns` cells to write; null for a reader
+  void code_wedge(Index wedge, Index sibling, const std::int32_t* wanted) {
+    std::int32_t* const cells = state_.wedge_cells.data() + place_of(wedge);
+    const std::int32_t* const known =
+        sibling == kNone ? nullptr : state_.wedge_cells.data() + place_of(sibling);
+    unsigned column = 0;
+    for (AttributeModels& models : state_.models.attributes) {
+      const unsigned end = column + models.columns;
+      const bool same =
+          known != nullptr &&
+          (models.was_same = coder_.bit(
+               models.same[models.was_same ? 1 : 0],
+               wanted != nullptr && std::equal(known + column, known + end, wanted + column)));
+      for (; column < end; ++column)
+        cells[column] = same ? known[column] : code_component(wedge, column, wanted);
+    }
   }
+
+  std::int32_t code_component(Index wedge, unsigned column, const std::int32_t* wanted) {
+    const Neighbours& all = neighbours_[place_of(wedge - first_) + column];
+    const Index count = counts_[wedge - first_];
+    const auto predicted = count == 0 ? 0 : static_cast<std::int32_t>(all.sum / count);
+    const auto spread = count == 0 ? 0u : static_cast<std::uint32_t>(all.most - all.least);
+    NumberModel& model = state_.models.column[column][std::bit_width(spread)];
+    const std::int32_t residual =
+        model.code(coder_, wanted != nullptr ? wanted[column] - predicted : 0);
+    return std::clamp(predicted + residual, -kMaxCell, kMaxCell);
+  }
+
   Coder& coder_;
   MeshState& state_;
-  std::vector<std::int64_t> predicted_;
-  std::int64_t count_ = 0;
+  Index first_ = 0;
+  std::vector<Neighbours> neighbours_;  // columns for each new wedge
+  std::vector<Index> counts_;
 };
 
 /// The records of one packet.
@@ -119,7 +153,7 @@ class PacketCode {
     if (state_.wedges + record.new_wedges > state_.max_wedges) return too_many();
     if (state_.groups > 1) code_groups(coder_, state_, parent, added, record);
     show(added, record);
-    if (state_.columns > 0) code_attributes(record);
+    if (state_.columns > 0) code_attributes(added, record);
     records_.take(parent, added);
     return {};
   }
@@ -138,26 +172,29 @@ class PacketCode {
     state_.faces = state_.mesh().face_count();
     state_.face_group.insert(state_.face_group.end(), record.groups.begin(), record.groups.end());
     if (state_.single_wedges) return;
-    state_.wedge_vertex.resize(state_.wedges, added);
-    for (std::size_t i = 0; i < record.moved.size(); ++i)
-      state_.corner_wedge[record.moved[i]] = record.shown[i];
+    while (state_.lists.size() < state_.wedges) state_.lists.add(added);
+    for (std::size_t i = 0; i < record.moved.size(); ++i) {
+      Index& wedge = state_.corner_wedge[record.moved[i]];
+      --state_.lists.uses(wedge);
+      wedge = record.shown[i];
+      ++state_.lists.uses(wedge);
+    }
     state_.corner_wedge.insert(state_.corner_wedge.end(), record.corners.begin(),
                                record.corners.end());
+    for (const Index wedge : record.corners)
+      if (wedge + record.new_wedges >= state_.wedges) ++state_.lists.uses(wedge);
   }
 
-  void code_attributes(const SplitRecord& record) {
-    const auto first_corner =
-        static_cast<Index>(std::size_t{3} * state_.faces - record.corners.size());
-    for (Index wedge = state_.wedges - record.new_wedges; wedge < state_.wedges; ++wedge) {
-      attributes_.start();
-      for (const Index corner : record.moved)
-        if (state_.wedge_of(corner) == wedge) attributes_.add_face(corner);
-      for (Index corner = first_corner; corner < 3 * state_.faces; ++corner)
-        if (state_.wedge_of(corner) == wedge) attributes_.add_face(corner);
-      if (attributes_.is_empty() && !record.kept.empty())
-        attributes_.add(state_.wedge_of(record.kept.front()));
-      attributes_.code(wedge, records_.cells_of(wedge));
+  void code_attributes(Index added, const SplitRecord& record) {
+    attributes_.start(state_.wedges - record.new_wedges);
+    for (const Index corner : record.moved) attributes_.add_face(corner);
+    for (Index at = 0; at < record.corners.size(); ++at) {
+      const Index corner = 3 * state_.faces - static_cast<Index>(record.corners.size()) + at;
+      if (state_.mesh().vertex_of(corner) == added) attributes_.add_face(corner);
     }
+    attributes_.code(record.kept.empty() ? kNone : state_.wedge_of(record.kept.front()),
+                     record.reassigned.empty() ? kNone : record.reassigned.back(),
+                     [&](Index wedge) { return records_.cells_of(wedge); });
   }
 
   Result<void> code_isolated(GridPoint wanted) {
@@ -179,11 +216,11 @@ class PacketCode {
       return too_many();
     const Index added = state_.splits.add_vertex(at);
     show(added, record);
-    for (Index wedge = state_.wedges - record.new_wedges;
-         state_.columns > 0 && wedge < state_.wedges; ++wedge) {
-      attributes_.start();
-      if (wedge > 0) attributes_.add(wedge - 1);
-      attributes_.code(wedge, records_.cells_of(wedge));
+    if (state_.columns > 0) {
+      const Index first = state_.wedges - record.new_wedges;
+      attributes_.start(first);
+      attributes_.code(first > 0 ? first - 1 : kNone, kNone,
+                       [&](Index wedge) { return records_.cells_of(wedge); });
     }
     records_.take(added, added);
     return {};

@@ -33,7 +33,7 @@ bool SplitFinder::find_moved(const VsplitRecord& record) {
     ++wedge;
   }
   for (const Index w : record.reassigned)
-    if (state_.single_wedges || state_.wedge_vertex[w] != record.parent) return false;
+    if (state_.single_wedges || state_.lists.vertex_of(w) != record.parent) return false;
   for (const Index corner : corners_)
     if (std::ranges::find(record.reassigned, state_.wedge_of(corner)) != record.reassigned.end())
       moved_.push_back({corner, state_.wedge_of(corner)});

@@ -82,19 +82,17 @@ class WedgeCode {
     const bool regular =
         coder_.bit(state_.models.regular[count], Coder::kReads ? false : is_regular());
     if (auto ok = regular ? code_regular(count) : code_moved(); !ok) return ok;
-    reassign();
     for (Index face = state_.faces; face < state_.mesh().face_count(); ++face)
       if (auto ok = code_face(face, regular); !ok) return ok;
-    if (state_.wedges + record_.new_wedges > state_.max_wedges) return too_many();
-    return {};
+    return regular ? code_unseen() : Result<void>{};
   }
 
  private:
   /// A wedge of the parent that moved corners show.
   struct Source {
     Index wedge;
-    bool stays;         ///< corners of the parent show it, too
-    Index wedge_after;  ///< of the moved corners; kNone: not one and the same
+    Index corners;      ///< moved ones
+    Index wedge_after;  ///< of the first of them
   };
   /// Wedges of a face by whom its corners belong to.
   struct FaceWedges {
@@ -112,20 +110,25 @@ class WedgeCode {
   Index first_new() const { return state_.wedges; }
   Index coarse_wedge(std::size_t i) const { return state_.corner_wedge[record_.moved[i]]; }
   Source* source_of(Index wedge) {
-    const auto found = std::ranges::find(sources_, wedge, &Source::wedge);
-    return found == sources_.end() ? nullptr : &*found;
+    if (wedge >= state_.wedges) return nullptr;
+    const Index at = state_.slot[wedge];
+    return at < sources_.size() && sources_[at].wedge == wedge ? &sources_[at] : nullptr;
   }
-  bool is_taken(Index wedge) const {
-    return std::ranges::find(record_.reassigned, wedge) != record_.reassigned.end();
+  /// Corners of the parent show the wedge, too.
+  bool stays(const Source& source) const {
+    return state_.lists.uses(source.wedge) > source.corners;
   }
 
   void list_sources() {
+    state_.slot.resize(state_.wedges);
     for (std::size_t i = 0; i < record_.moved.size(); ++i) {
       const Index wedge = coarse_wedge(i);
-      if (source_of(wedge) != nullptr) continue;
-      const bool stays = std::ranges::any_of(
-          record_.kept, [&](Index c) { return state_.corner_wedge[c] == wedge; });
-      sources_.push_back({wedge, stays, kNone});
+      if (Source* const source = source_of(wedge)) {
+        ++source->corners;
+        continue;
+      }
+      state_.slot[wedge] = static_cast<Index>(sources_.size());
+      sources_.push_back({wedge, 1, Coder::kReads ? kNone : record_.shown[i]});
     }
   }
 
@@ -133,15 +136,11 @@ class WedgeCode {
   bool is_regular() {
     std::vector<Index> taken;
     Index next = first_new();
-    for (Source& source : sources_) {
-      const auto first = std::ranges::find(
-          record_.moved, source.wedge, [&](Index corner) { return state_.corner_wedge[corner]; });
-      const Index after = record_.shown[static_cast<std::size_t>(first - record_.moved.begin())];
-      if (after == source.wedge && !source.stays)
-        taken.push_back(after);
-      else if (after != next++)
+    for (const Source& source : sources_) {
+      if (source.wedge_after == source.wedge && !stays(source))
+        taken.push_back(source.wedge);
+      else if (source.wedge_after != next++)
         return false;
-      source.wedge_after = after;
     }
     for (std::size_t i = 0; i < record_.moved.size(); ++i)
       if (record_.shown[i] != source_of(coarse_wedge(i))->wedge_after) return false;
@@ -149,23 +148,33 @@ class WedgeCode {
       if (wedge > next) return false;
       next += wedge == next ? 1 : 0;
     }
-    return taken == record_.reassigned && next == first_new() + record_.new_wedges;
+    return taken == record_.reassigned;
   }
 
   Result<void> code_regular(std::size_t count) {
     next_new_ = first_new();
     for (Source& source : sources_) {
-      const bool taken = !source.stays && coder_.bit(state_.models.reassigned[count],
-                                                     source.wedge_after == source.wedge);
+      BitModel& model = state_.models.reassigned[count][source.corners > 1 ? 1 : 0];
+      const bool taken = !stays(source) && coder_.bit(model, source.wedge_after == source.wedge);
       source.wedge_after = taken ? source.wedge : next_new_++;
+      if (taken) state_.lists.move(source.wedge, added_);
       if constexpr (Coder::kReads)
         if (taken) record_.reassigned.push_back(source.wedge);
     }
     if constexpr (Coder::kReads) {
       for (std::size_t i = 0; i < record_.moved.size(); ++i)
         record_.shown.push_back(source_of(coarse_wedge(i))->wedge_after);
-      record_.new_wedges = next_new_ - first_new();
     }
+    return {};
+  }
+
+  /// Those that no triangle shows have the last numbers.
+  Result<void> code_unseen() {
+    const Index shown = next_new_ - first_new();
+    const Index unseen =
+        code_count(coder_, state_.models.unseen, Coder::kReads ? 0 : record_.new_wedges - shown);
+    if (std::uint64_t{next_new_} + unseen > state_.max_wedges) return too_many();
+    record_.new_wedges = shown + unseen;
     return {};
   }
 
@@ -177,14 +186,14 @@ class WedgeCode {
     if (std::uint64_t{state_.wedges} + record_.new_wedges > state_.max_wedges) return too_many();
     next_new_ = first_new() + record_.new_wedges;
     if (auto ok = code_taken(); !ok) return ok;
-    for (Source& source : sources_) source.wedge_after = kNone;
     if constexpr (Coder::kReads) record_.shown.assign(record_.moved.size(), 0);
     for (std::size_t i = 0; i < record_.moved.size(); ++i) {
       const Index wedge = coarse_wedge(i);
       const bool keeps = record_.shown[i] == wedge;
       const Index coded = coder_.raw(keeps ? record_.new_wedges : record_.shown[i] - first_new(),
                                      bits_for(record_.new_wedges));
-      if (coded > record_.new_wedges || (coded == record_.new_wedges && !is_taken(wedge)))
+      if (coded > record_.new_wedges ||
+          (coded == record_.new_wedges && state_.lists.vertex_of(wedge) != added_))
         return misplaced();
       const Index after = coded == record_.new_wedges ? wedge : first_new() + coded;
       if constexpr (Coder::kReads) record_.shown[i] = after;
@@ -198,23 +207,16 @@ class WedgeCode {
     const auto wanted = static_cast<std::uint32_t>(record_.reassigned.size());
     const std::uint32_t count = code_count(coder_, state_.models.taken, wanted);
     if (count > state_.wedges) return misplaced();
-    std::vector<Index> taken;
     for (std::uint32_t i = 0; i < count; ++i) {
       const Index wedge =
           coder_.raw(Coder::kReads ? 0 : record_.reassigned[i], bits_for(state_.wedges));
-      const bool is_shown = std::ranges::any_of(
-          record_.kept, [&](Index c) { return state_.corner_wedge[c] == wedge; });
-      if (wedge >= state_.wedges || state_.wedge_vertex[wedge] != parent_ || is_shown ||
-          std::ranges::find(taken, wedge) != taken.end())
-        return misplaced();
-      taken.push_back(wedge);
+      if (wedge >= state_.wedges || state_.lists.vertex_of(wedge) != parent_) return misplaced();
+      const Source* const source = source_of(wedge);
+      if (source != nullptr ? stays(*source) : state_.lists.uses(wedge) > 0) return misplaced();
+      state_.lists.move(wedge, added_);
+      if constexpr (Coder::kReads) record_.reassigned.push_back(wedge);
     }
-    if constexpr (Coder::kReads) record_.reassigned = std::move(taken);
     return {};
-  }
-
-  void reassign() {
-    for (const Index wedge : record_.reassigned) state_.wedge_vertex[wedge] = added_;
   }
 
   /// The wedge of the third vertex beside a corner.
@@ -268,8 +270,9 @@ class WedgeCode {
       record_.corners[place(0)] = coded->parent;
       record_.corners[place(1)] = coded->added;
       record_.corners[place(2)] = coded->third;
-      record_.new_wedges = next_new_ - first_new();
     }
+    for (const Index wedge : {coded->parent, coded->added, coded->third})
+      if (wedge < state_.wedges) ++state_.lists.uses(wedge);
     return {};
   }
 
@@ -277,26 +280,96 @@ class WedgeCode {
                                  const FaceWedges& kept, Index third, bool regular) {
     WedgeModels& models = state_.models;
     const unsigned agree = !beyond.usable() ? 0 : beyond == kept ? 1 : 2;
-    if (beyond.usable() && coder_.bit(models.as_new[agree], wanted == beyond)) return beyond;
-    if (kept.usable() && agree != 1 && coder_.bit(models.as_kept[agree], wanted == kept))
+    const unsigned spare = (has_spare(parent_) ? 1 : 0) | (has_spare(third) ? 2 : 0);
+    if (beyond.usable() && coder_.bit(models.as_new[agree][spare], wanted == beyond)) return beyond;
+    if (kept.usable() && agree != 1 && coder_.bit(models.as_kept[agree][spare], wanted == kept))
       return kept;
     const Index end = next_new_ + (regular ? 1 : 0);
-    const auto named = [&](Index wedge) { return coder_.raw(wedge, bits_for(end)); };
-    const FaceWedges out{named(wanted.parent), named(wanted.added), named(wanted.third)};
-    const auto is_of = [&](Index wedge, Index vertex) {
-      return wedge < state_.wedges ? state_.wedge_vertex[wedge] == vertex
-                                   : wedge < end && vertex == added_;
-    };
-    if (!is_of(out.parent, parent_) || !is_of(out.added, added_) || !is_of(out.third, third))
-      return misplaced();
+    FaceWedges out;
+    list_likely(parent_, beyond.parent, kept.parent, kNone);
+    out.parent = code_likely(models.of_parent[spare & 1], wanted.parent, end);
+    if (!is_of(out.parent, parent_, end)) return misplaced();
+    list_likely(third, beyond.third, kept.third, out.parent);
+    out.third = code_likely(models.of_third[spare >> 1], wanted.third, end);
+    likely_.clear();
+    for (const Index wedge :
+         {new_wedge_from(out.parent, regular), beyond.added, regular ? next_new_ : kNone})
+      add_likely(wedge);
+    for (const Source& source : sources_) add_likely(source.wedge_after);
+    out.added = code_likely(models.of_added, wanted.added, end);
+    if (!is_of(out.third, third, end) || !is_of(out.added, added_, end)) return misplaced();
     return out;
   }
+
+  bool is_of(Index wedge, Index vertex, Index end) const {
+    return wedge < state_.wedges ? state_.lists.vertex_of(wedge) == vertex
+                                 : wedge < end && vertex == added_;
+  }
+
+  /// Nothing shows the wedge.
+  bool is_spare(Index wedge) const { return state_.lists.uses(wedge) == 0; }
+  bool has_spare(Index vertex) {
+    state_.lists.list(vertex, kMostLooks, own_);
+    return std::ranges::any_of(own_, [&](Index wedge) { return is_spare(wedge); });
+  }
+
+  void add_likely(Index wedge) {
+    if (wedge == kNone || likely_.size() + 1 == SymbolModel::kSymbols) return;
+    if (std::ranges::find(likely_, wedge) == likely_.end()) likely_.push_back(wedge);
+  }
+
+  /// Wedges of a vertex, the likeliest first: those beside, those that nothing shows, the others;
+  /// the more alike to `like` (kNone: to none) the earlier.
+  void list_likely(Index vertex, Index beyond, Index kept, Index like) {
+    likely_.clear();
+    add_likely(beyond);
+    add_likely(kept);
+    state_.lists.list(vertex, kMostLooks, own_);
+    ranked_.clear();
+    for (const Index wedge : own_)
+      ranked_.push_back(
+          {is_spare(wedge) ? 0u : 1u, like == kNone ? 0 : distance(wedge, like), wedge});
+    std::ranges::stable_sort(ranked_, [](const Ranked& a, const Ranked& b) {
+      return a.shown != b.shown ? a.shown < b.shown : a.distance < b.distance;
+    });
+    for (const Ranked& ranked : ranked_) add_likely(ranked.wedge);
+  }
+
+  /// Between attributes. Below 2^33.
+  std::int64_t distance(Index a, Index b) const {
+    if (b >= state_.wedges) return 0;
+    const std::int32_t* const of_a = state_.wedge_cells.data() + std::size_t{a} * state_.columns;
+    const std::int32_t* const of_b = state_.wedge_cells.data() + std::size_t{b} * state_.columns;
+    std::int64_t sum = 0;
+    for (unsigned c = 0; c < state_.columns; ++c) sum += std::abs(of_a[c] - of_b[c]);
+    return sum;
+  }
+
+  /// A place in the list, or the wedge by its number.
+  Index code_likely(SymbolModel& model, Index wanted, Index end) {
+    constexpr unsigned kNamed = SymbolModel::kSymbols - 1;
+    unsigned symbol = kNamed;
+    if constexpr (!Coder::kReads)
+      if (const auto found = std::ranges::find(likely_, wanted); found != likely_.end())
+        symbol = static_cast<unsigned>(found - likely_.begin());
+    symbol = coder_.symbol(model, symbol);
+    return symbol < likely_.size() ? likely_[symbol] : coder_.raw(wanted, bits_for(end));
+  }
+
+  struct Ranked {
+    unsigned shown;
+    std::int64_t distance;
+    Index wedge;
+  };
+  static constexpr std::size_t kMostLooks = 64;  // at wedges of one vertex
 
   Coder& coder_;
   MeshState& state_;
   const Index parent_, added_;
   SplitRecord& record_;
   std::vector<Source> sources_;
+  std::vector<Index> own_, likely_;  // scratch: wedges of a vertex
+  std::vector<Ranked> ranked_;
   Index next_new_ = 0;  // the first wedge that nothing shows yet, or past the last
 };
 
