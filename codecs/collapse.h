@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,38 @@ struct Collapse {
   float error;  ///< estimated distance after it, model units, not falling along the sequence
   Index moves;  ///< how many of the sequence's wedge moves belong to it
   friend bool operator==(const Collapse&, const Collapse&) = default;
+};
+
+/// By what collapses are ordered where several come into question.
+enum class CollapseOrder : std::uint8_t {
+  error,  ///< the least first
+  bits,   ///< nearly so; early on, where nobody sees which vertex goes first, by what takes fewer
+          ///< bits to code as well
+};
+
+/// How large a batch is: collapses of which no two share a vertex.
+struct BatchShares {
+  double removed;   ///< of the vertices that are left, at most
+  double cheapest;  ///< only vertices among this share by cost go
+
+  Index most_of(Index left) const {
+    return std::max(Index{1}, static_cast<Index>(removed * static_cast<double>(left)));
+  }
+};
+
+/// Large batches save bits, small ones keep the order: what an early batch takes too soon would go
+/// a little later anyway, what a late one takes spoils every level below.
+struct BatchSchedule {
+  BatchShares early = {0.35, 0.8}, late = {0.2, 0.5};
+  double early_until = 0.3;  ///< this share of the vertices is left
+
+  const BatchShares& at(Index left, Index all) const {
+    return static_cast<double>(left) > early_until * static_cast<double>(all) ? early : late;
+  }
+  static BatchSchedule of(CollapseOrder order) {
+    if (order == CollapseOrder::error) return {};
+    return {{0.4, 0.9}, {0.25, 0.6}, 0.45};
+  }
 };
 
 /// Why a collapse is put off.

@@ -1,6 +1,7 @@
 #include "codecs/compact/batches.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace pstrips::inline codecs {
@@ -11,12 +12,11 @@ std::vector<Index> batches_of(std::span<const Collapse> collapses, Index vertice
   std::vector<Index> left(collapses.size());
   std::iota(left.begin(), left.end(), Index{0});
   std::vector<Index> taken(vertices, kNone);  // the last batch in which the vertex stands aside
-  const auto share_of = [](double share, Index of) {
-    return std::max<std::size_t>(1, static_cast<std::size_t>(share * of));
-  };
+  const Index all = vertices;
   for (Index number = 0; !left.empty() && number < most_batches; ++number) {
-    const std::size_t most = share_of(options.batch_share, vertices);
-    const std::size_t window = std::min(left.size(), share_of(options.window_share, vertices));
+    const Index most = options.schedule.at(vertices, all).most_of(vertices);
+    const auto wanted = static_cast<std::size_t>(std::ceil(options.window * most));
+    const std::size_t window = std::min(left.size(), std::max(wanted, std::size_t{1}));
     std::vector<Index> later;
     later.reserve(left.size());
     std::size_t in_batch = 0, at = 0;

@@ -10,13 +10,13 @@ namespace pstrips::inline codecs {
 
 struct BatchOptions {
   /// subset: coarse vertices stand where the kept vertices of the source stand. optimal: a vertex
-  /// stands in the middle of the two that it becomes, whatever the collapses say: about a bit and
-  /// a half less a vertex, and levels that are farther from the source.
+  /// stands in the middle of the two that it becomes, whatever the collapses say: about as many
+  /// bits, and levels that are twice as far from the source.
   Placement placement = Placement::subset;
-  /// At most this share of the vertices that are left is removed in one batch …
-  double batch_share = 0.35;
-  /// … out of the next collapses, this share of the vertices many.
-  double window_share = 0.7;
+  BatchSchedule schedule = {};
+  /// A batch is chosen from the next collapses, so many times its size; `cheapest` does not count.
+  /// Sequences that fall into batches want little, others 2.
+  double window = 1.2;
 };
 
 /// The batch of each collapse, 0 the finest. In a batch no vertex takes part in two collapses, so

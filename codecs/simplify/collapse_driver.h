@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "codecs/simplify/batch_gate.h"
 #include "codecs/simplify/complex.h"
 #include "codecs/simplify/constraints.h"
 #include "codecs/simplify/initial_quadrics.h"
@@ -57,6 +58,7 @@ struct CollapseState {
   std::optional<WedgeTable> wedges;
   QuadricBuilder builder{complex, input, wedges ? &*wedges : nullptr};
   std::optional<VertexBuckets> queue;
+  std::optional<BatchGate> batches;
   float max_squared_error = kInfiniteCost;  ///< in the complex's units
   std::vector<Index> moved_corners;
   float last_error = 0;
@@ -88,6 +90,20 @@ concept CollapsePricer = requires(P& pricer, Index vertex, const StarEdge& edge,
   if (const Index v = queue.ahead(3); v != kNone) complex.prefetch_neighbours(v);
 }
 
+/// Leaves out the edges of a star whose ends the batch has taken; false if there are none.
+template <CollapsePricer Pricer>
+bool leave_out_taken(BatchGate& batches, Pricer& pricer, const Star& star) {
+  const StarEdge* const best = pricer.cheapest();
+  batches.set_key(star.vertex, best ? best->cost : kInfiniteCost);
+  bool any = false;
+  for (StarEdge& edge : star.edges) {
+    if (!batches.is_taken(edge.vertex)) continue;
+    edge.cost = kInfiniteCost;
+    any = true;
+  }
+  return any;
+}
+
 /// The edge at a vertex to collapse now, where no other vertex has a key below the queue's limit.
 /// Edges that a constraint refuses are made dearer and compared again. Null after the vertex was
 /// put back or dropped.
@@ -96,10 +112,11 @@ const StarEdge* choose_edge(CollapseState& state, Pricer& pricer, Index vertex) 
   constexpr int kMaxConstraintChecks = 16;  // of one large ring in a row
   const Star& star = pricer.price(vertex);
   const bool large = pricer.is_large();
+  const bool waits = state.batches && leave_out_taken(*state.batches, pricer, star);
   for (int checks = 0;; ++checks) {
     StarEdge* const best = pricer.cheapest();
     if (!best || best->cost == kInfiniteCost) {
-      pricer.drop(vertex);
+      if (!waits) pricer.drop(vertex);
       return nullptr;
     }
     if (best->cost > state.queue->limit()) {
@@ -122,6 +139,25 @@ const StarEdge* choose_edge(CollapseState& state, Pricer& pricer, Index vertex) 
   }
 }
 
+/// The vertex to look at now; kNone when there is none.
+inline Index next_vertex(CollapseState& state) {
+  for (;;) {
+    const Index vertex = state.queue->pop();
+    if (!state.batches) return vertex;
+    if (vertex == kNone || state.batches->is_full(*state.queue)) {
+      if (state.batches->is_empty()) return kNone;
+      if (!state.batches->is_stuck()) {
+        state.queue.emplace(state.batches->next_batch());
+        continue;
+      }
+      state.queue.emplace(state.batches->keys());
+      state.batches.reset();
+    } else if (!state.batches->is_taken(vertex)) {
+      return vertex;
+    }
+  }
+}
+
 /// Collapses what is next in the queue until one of SimplifyStop's reasons ends the sequence.
 template <CollapsePricer Pricer>
 void collapse_until_stop(CollapseState& state, Pricer& pricer, const Progress& progress) {
@@ -129,10 +165,11 @@ void collapse_until_stop(CollapseState& state, Pricer& pricer, const Progress& p
   CollapseSequence& out = state.out;
   const std::uint64_t start = out.triangles_left, target = state.options.target_triangles;
   out.stop = SimplifyStop::exhausted;
-  for (Index vertex; (vertex = state.queue->pop()) != kNone;) {
+  for (Index vertex; (vertex = next_vertex(state)) != kNone;) {
     look_ahead(state.complex, *state.queue);
     const StarEdge* const edge = choose_edge(state, pricer, vertex);
     if (!edge) continue;
+    if (state.batches) state.batches->take(vertex, edge->vertex);
     pricer.collapse(*edge);
     if (state.is_done()) {
       out.stop = SimplifyStop::target;
@@ -155,7 +192,13 @@ CollapseSequence collapse_by(const SimplifyInput& input, const SimplifyOptions& 
   CollapseState state(input, options);
   if (!state.is_done()) {
     Pricer pricer(state);
-    state.queue.emplace(pricer.first_keys());
+    std::vector<float> keys = pricer.first_keys();
+    if (options.in_batches && options.placement == Placement::subset) {
+      state.batches.emplace(BatchSchedule::of(options.order), std::move(keys));
+      state.queue.emplace(state.batches->next_batch());
+    } else {
+      state.queue.emplace(keys);
+    }
     collapse_until_stop(state, pricer, progress);
   }
   return std::move(state.out);

@@ -39,6 +39,11 @@ struct SimplifyOptions {
   double max_error = -1;
   Placement placement = Placement::subset;  ///< optimal: the kept vertex moves where it fits best
   Metric metric = Metric::memoryless;  ///< a fifth to a third nearer than qem, at the same cost
+  /// With subset placement: the sequence falls into batches of which no two collapses share a
+  /// vertex, one after the other, sized as BatchSchedule says; where hardly any two do not, its
+  /// rest is in plain order.
+  bool in_batches = false;
+  CollapseOrder order = CollapseOrder::error;  ///< bits: with subset placement
   unsigned threads = 0;  ///< to work with, 0: one a core; the sequence does not depend on it
 };
 

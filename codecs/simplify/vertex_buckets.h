@@ -37,6 +37,10 @@ class VertexBuckets {
   }
   /// The greatest key of the step that the vertex popped last belongs to.
   float limit() const { return std::bit_cast<float>(((now_ + 1) << kShift) - 1); }
+  /// The greatest key of the step that a finite key belongs to.
+  static float limit_of(float key) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(key) | ((1u << kShift) - 1));
+  }
 
   /// Puts a vertex in, or gives it another key. Precondition: finite key.
   void put(Index vertex, float key);

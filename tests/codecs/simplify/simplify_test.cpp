@@ -62,9 +62,15 @@ struct Manner {
   const char* name;
   Placement placement;
   Metric metric;
+  bool in_batches = false;
+  CollapseOrder order = CollapseOrder::error;
 
   SimplifyOptions to(std::uint64_t target_triangles) const {
-    return {.target_triangles = target_triangles, .placement = placement, .metric = metric};
+    return {.target_triangles = target_triangles,
+            .placement = placement,
+            .metric = metric,
+            .in_batches = in_batches,
+            .order = order};
   }
 };
 constexpr Manner kManners[] = {
@@ -72,6 +78,8 @@ constexpr Manner kManners[] = {
     {"subset, memoryless", Placement::subset, Metric::memoryless},
     {"optimal, qem", Placement::optimal, Metric::qem},
     {"optimal, memoryless", Placement::optimal, Metric::memoryless},
+    {"batches", Placement::subset, Metric::memoryless, true},
+    {"batches, bits", Placement::subset, Metric::memoryless, true, CollapseOrder::bits},
 };
 
 // Performs a sequence on a plain list of triangles, checking each step by the letter of the header.
@@ -292,7 +300,7 @@ RC_GTEST_PROP(Simplify, ReducesAnySoupToNothingByItsRules, ()) {
   const auto faces = *rc::gen::inRange<Index>(0, 200);
   Source source = source_of(test::random_soup(seed, vertices, faces));
   if (*rc::gen::arbitrary<bool>()) source.attributes.clear(), source.attribute_count = 0;
-  const Manner& manner = kManners[*rc::gen::inRange(0, 4)];
+  const Manner& manner = kManners[*rc::gen::inRange<std::size_t>(0, std::size(kManners))];
   const CollapseSequence sequence = run(source, manner.to(0));
   testing::TestPartResultArray failures;
   {
@@ -528,6 +536,51 @@ TEST(Simplify, FreePlacementAndMemorylessMetricAreNearer) {
   EXPECT_LT(free_qem, 0.8 * subset_qem);
   EXPECT_LT(free_memoryless, 0.8 * subset_memoryless);
   EXPECT_LT(free_memoryless, 0.8 * free_qem);
+}
+
+// Greedily from the front: how many collapses follow each other of which no two share a vertex.
+std::vector<std::size_t> independent_runs(const CollapseSequence& sequence) {
+  std::vector<std::size_t> out;
+  std::set<Index> taken;
+  for (const Collapse& c : sequence.collapses) {
+    if (out.empty() || taken.contains(c.kept) || taken.contains(c.removed)) {
+      out.push_back(0);
+      taken.clear();
+    }
+    taken.insert({c.kept, c.removed});
+    ++out.back();
+  }
+  return out;
+}
+
+TEST(Simplify, FallsIntoLargeBatches) {
+  const Source source = source_of(test::torus(80, 40));
+  for (const CollapseOrder order : {CollapseOrder::error, CollapseOrder::bits}) {
+    const SimplifyOptions options = {.target_triangles = 100, .in_batches = true, .order = order};
+    const std::size_t runs = independent_runs(run(source, options)).size();
+    EXPECT_LT(runs, 40u);
+    EXPECT_GT(independent_runs(run(source, {.target_triangles = 100})).size(), 3 * runs);
+  }
+}
+
+// All keys in one step of the queue: neither the first batch nor the last may be of one collapse.
+TEST(Simplify, FallsIntoLargeBatchesOnAPlane) {
+  const Source source = source_of(test::grid(40));
+  const CollapseSequence sequence = run(source, {.target_triangles = 200, .in_batches = true});
+  EXPECT_LT(independent_runs(sequence).size(), 60u);
+}
+
+TEST(Simplify, BatchesStayNearTheSource) {
+  const Source source = source_of(test::torus(80, 40));
+  for (const std::uint64_t target : {3200u, 1280u, 320u}) {
+    const double plain = rms_after(source, run(source, {.target_triangles = target}));
+    const auto batches = [&](CollapseOrder order) {
+      return rms_after(
+          source, run(source, {.target_triangles = target, .in_batches = true, .order = order}));
+    };
+    EXPECT_LT(batches(CollapseOrder::error), 1.15 * plain) << target;
+    EXPECT_LT(batches(CollapseOrder::bits), 1.4 * plain) << target;
+  }
 }
 
 TEST(Simplify, MemorylessMetricKeepsTheVolume) {

@@ -159,9 +159,9 @@ TEST(SplitStream, EveryLevelOfAnyComplex) {
 TEST(SplitStream, BatchesOfAnyShare) {
   const GridMesh mesh = on_grid(test::torus(20, 10), 1000);
   for (const double share : {0.001, 0.1, 0.5, 1.0})
-    for (const double window : {0.001, 0.3, 1.0})
+    for (const double window : {0.1, 1.0, 2.0})
       expect_every_level(mesh, random_collapses(mesh, 1),
-                         {.batch_share = share, .window_share = window});
+                         {.schedule = {{share, 1}, {share, 1}, 0.5}, .window = window});
 }
 
 TEST(SplitStream, FarthestCornersOfTheGrid) {
