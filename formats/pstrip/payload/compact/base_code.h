@@ -72,8 +72,12 @@ class BaseCode {
   /// errors  corrupt: an index past the end, a vertex twice in a triangle, a wedge of two vertices.
   ///         Bytes that end early are the caller's to see
   Result<void> run() {
-    for (Index t = 0; t < counts_.triangles; ++t)
+    for (Index t = 0; t < counts_.triangles; ++t) {
       if (auto ok = code_triangle(t); !ok) return ok;
+      // What is read past the end would go on for as long as the counts say.
+      if constexpr (Coder::kReads)
+        if (coder_.overrun()) return fail(ErrorCode::corrupt, "base ends early");
+    }
     for (Index v = 0; v < counts_.vertices; ++v)
       if (!is_known_[v]) code_position(v, models_.far, last_position_);
     for (Index w = 0; w < counts_.wedges; ++w) {

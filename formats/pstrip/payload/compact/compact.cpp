@@ -257,6 +257,7 @@ Result<void> CompactReader::read_records(ReadIo& io, Index vsplits, MeshState& s
 
 Result<void> CompactReader::read_packet(ReadIo& io, PacketHead& head, ProgressiveMesh& mesh,
                                         const PacketStart& start) {
+  if (head.mesh >= meshes_.size()) return fail(ErrorCode::corrupt, "mesh has no base yet");
   Reading& reading = meshes_[head.mesh];
   reading.visited += start.vertices;
   if (is_too_much_work(reading.visited, mesh.vertices))
