@@ -91,6 +91,8 @@ constexpr Text kTexts[] = {
     {Fault::triangle_entries, "map of triangles has not three entries for each triangle"},
     {Fault::triangle_growth, "vsplits do not bring the triangles that the base lacks"},
     {Fault::triangle_group, "triangle names a group past the end"},
+    {Fault::profile_encoding, "index map is not one of triangles, as the profile calls for"},
+    {Fault::position_grid, "grid of the positions cannot be that of numbers of their type"},
     {Fault::face_bounds, "face bounds do not partition the corners"},
     {Fault::face_corner, "face names a wedge past the end"},
     {Fault::face_group, "face names a group past the end"},

@@ -89,6 +89,8 @@ enum class Fault : std::uint8_t {
   triangle_entries,
   triangle_growth,
   triangle_group,
+  profile_encoding,
+  position_grid,
   face_bounds,
   face_corner,
   face_group,

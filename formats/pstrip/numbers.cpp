@@ -131,6 +131,7 @@ void TextWriter::element(const Attribute& format, ByteView element) {
 }
 
 bool parse_number(std::string_view token, std::uint32_t& out) { return parse_integer(token, out); }
+bool parse_number(std::string_view token, std::int64_t& out) { return parse_integer(token, out); }
 bool parse_number(std::string_view token, float& out) { return parse_real(token, out); }
 bool parse_number(std::string_view token, double& out) { return parse_real(token, out); }
 

@@ -51,6 +51,7 @@ class TextWriter {
 
 /// Reads one token, all of it. False when it is no number of that type or out of its range.
 bool parse_number(std::string_view token, std::uint32_t& out);
+bool parse_number(std::string_view token, std::int64_t& out);
 bool parse_number(std::string_view token, float& out);
 bool parse_number(std::string_view token, double& out);
 /// Stores the component at `at`, which has room for size_of(type) bytes.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "formats/pstrip/payload/compact/cells.h"
 #include "formats/pstrip/payload/predicates.h"
 
 namespace pstrips::inline formats {
@@ -62,6 +63,14 @@ bool check_counts(const ProgressiveMesh& mesh, Index map_entries, MeshFaults& fa
       (mesh.wedges != mesh.vertices || mesh.base_wedges != mesh.base_vertices))
     return faults.report(Fault::single_wedge_counts);
   return true;
+}
+
+/// What the profile of the file asks of a mesh.
+bool check_profile(const ProgressiveMesh& mesh, Profile profile, MeshFaults& faults) {
+  if (profile == Profile::plain) return true;
+  if (mesh.encoding != MapEncoding::triangles) return faults.report(Fault::profile_encoding);
+  return PositionCells::is_valid(mesh.grid, mesh.position.type) ||
+         faults.report(Fault::position_grid, Field::position_format);
 }
 
 bool check_permutation(std::span<const Index> list, Index count, Fault fault, Field field,
@@ -251,7 +260,7 @@ bool check_mesh_header(const ProgressiveStrips& strips, Index index, Index map_e
                        FaultSink& sink) {
   const ProgressiveMesh& mesh = strips.meshes[index];
   MeshFaults faults(index, sink);
-  if (!check_formats(mesh, faults)) return false;
+  if (!check_formats(mesh, faults) || !check_profile(mesh, strips.profile, faults)) return false;
   if (mesh.groups.empty() || mesh.groups.size() != mesh.group_entries.size())
     return faults.report(Fault::group_missing);
   for (std::size_t i = 0; i < mesh.groups.size(); ++i) {

@@ -85,8 +85,9 @@ void group_fields(Io& io, M& mesh, G& group) {
   io.index("map_entries", mesh.group_entries[static_cast<std::size_t>(&group - &mesh.groups[0])]);
 }
 
+/// The plain profile has no use for a grid.
 template <class Io, class M>
-void mesh_fields(Io& io, M& mesh) {
+void mesh_fields(Io& io, M& mesh, Profile profile) {
   io.string("name", mesh.name);
   io.word("encoding", mesh.encoding, kEncodingNames, Fault::value_undefined);
   io.word("placement", mesh.placement, kPlacementNames, Fault::value_undefined);
@@ -97,6 +98,11 @@ void mesh_fields(Io& io, M& mesh) {
   io.index("strips", mesh.strips);
   io.index("base_vertices", mesh.base_vertices);
   io.index("base_wedges", mesh.base_wedges);
+  if (profile != Profile::plain) {
+    io.real("grid_step", mesh.grid.step);
+    io.integers("grid_origin", mesh.grid.origin);
+    io.flag("grid_exact", mesh.grid.exact);
+  }
   io.content();
   const auto format = [](auto& child, auto& attribute) { format_fields(child, attribute); };
   io.child("position", "/position", [&](auto& child) { format_fields(child, mesh.position); });
@@ -321,9 +327,10 @@ void tail_fields(Io& io, S& strips) {
 
 /// What version 2.0 does not have.
 inline bool needs_newer_version(const ProgressiveStrips& strips) {
-  return std::ranges::any_of(strips.meshes, [](const ProgressiveMesh& mesh) {
-    return mesh.encoding == MapEncoding::triangles;
-  });
+  return strips.profile != Profile::plain ||
+         std::ranges::any_of(strips.meshes, [](const ProgressiveMesh& mesh) {
+           return mesh.encoding == MapEncoding::triangles;
+         });
 }
 
 template <class Io, class S>
@@ -338,7 +345,7 @@ void document_fields(Io& io, S& strips) {
   io.child_if(!scene.materials.empty() || !scene.images.empty(), "materials", "/scene",
               [&](auto& child) { materials_fields(child, scene); });
   io.children("mesh", "/meshes", strips.meshes,
-              [](auto& child, auto& mesh) { mesh_fields(child, mesh); });
+              [&](auto& child, auto& mesh) { mesh_fields(child, mesh, strips.profile); });
   io.children("base", "/bases", strips.bases,
               [&](auto& child, auto& base) { base_fields(child, strips, base); });
   if (!io.demand(strips.bases.size() == strips.meshes.size(), Fault::xml_bases,

@@ -81,11 +81,17 @@ void XmlReadAttributes::component_count(const char* name, std::uint8_t& v) {
 void XmlReadAttributes::real(const char* name, float& v) { number(name, v); }
 void XmlReadAttributes::real(const char* name, double& v) { number(name, v); }
 
-void XmlReadAttributes::reals(const char* name, std::span<double> values) {
+template <class T>
+void XmlReadAttributes::numbers(const char* name, std::span<T> values) {
   Tokens tokens(raw(name));
-  for (double& v : values)
+  for (T& v : values)
     if (in_.ok() && !parse_number(tokens.next(), v)) fail(Fault::xml_number, kBadComponent, name);
   demand(tokens.at_end(), Fault::xml_list_length, kTooMany, name);
+}
+
+void XmlReadAttributes::reals(const char* name, std::span<double> values) { numbers(name, values); }
+void XmlReadAttributes::integers(const char* name, std::span<std::int64_t> values) {
+  numbers(name, values);
 }
 
 void XmlReadAttributes::flag(const char* name, bool& v) {

@@ -24,6 +24,7 @@ class XmlReadAttributes {
   void real(const char* name, float& v);
   void real(const char* name, double& v);
   void reals(const char* name, std::span<double> values);
+  void integers(const char* name, std::span<std::int64_t> values);
   void flag(const char* name, bool& v);
   /// The attribute may be absent, which means `absent`.
   void flag_unless(const char* name, bool& v, bool absent);
@@ -73,6 +74,8 @@ class XmlReadAttributes {
   std::string_view raw(const char* name);
   template <class T>
   void number(const char* name, T& v);
+  template <class T>
+  void numbers(const char* name, std::span<T> values);
   std::size_t number_of_word(const char* name, std::span<const std::string_view> words,
                              Fault undefined);
 

@@ -47,6 +47,9 @@ class XmlWriteIo {
   void reals(const char* name, std::span<const double> values) {
     attribute(name, [&] { spaced(values, [&](double v) { out_.real(v); }); });
   }
+  void integers(const char* name, std::span<const std::int64_t> values) {
+    attribute(name, [&] { spaced(values, [&](std::int64_t v) { out_.integer(v); }); });
+  }
   void flag(const char* name, bool v) { string(name, v ? "true" : "false"); }
   void flag_unless(const char* name, bool v, bool absent) {
     if (v != absent) flag(name, v);

@@ -115,6 +115,55 @@ TEST(Check, NamesWhatIsWrong) {
   }
 }
 
+TEST(Check, JudgesMeshesByTheProfile) {
+  ProgressiveStrips good = test::random_progressive(3, {.encoding = MapEncoding::triangles});
+  good.profile = Profile::compact;
+  ProgressiveMesh& mesh = good.meshes[0];
+  ASSERT_EQ(mesh.position.type, ComponentType::f32);
+  mesh.grid = {.step = 0.25f};
+  EXPECT_TRUE(check(good));
+  const auto fault_of = [&](auto spoil) {
+    ProgressiveStrips bad = good;
+    spoil(bad.meshes[0]);
+    const Result<void> result = check(bad);
+    return result ? Fault::none : result.error().fault;
+  };
+  using M = ProgressiveMesh;
+  EXPECT_EQ(fault_of([](M& m) { m.encoding = MapEncoding::naive; }), Fault::profile_encoding);
+  EXPECT_EQ(fault_of([](M& m) { m.grid.step = 0; }), Fault::position_grid);
+  EXPECT_EQ(fault_of([](M& m) { m.grid = {.step = 0.75f, .exact = false}; }), Fault::position_grid);
+  EXPECT_EQ(fault_of([](M& m) { m.grid = {.step = 0.5f, .exact = false}; }), Fault::none);
+}
+
+TEST(Check, ChangesOfMapsOfTrianglesStayInRange) {
+  const ProgressiveStrips good = test::random_progressive(
+      5, {.vsplits = 9, .encoding = MapEncoding::triangles, .single_wedges = false});
+  ASSERT_TRUE(check(good));
+  const ProgressiveMesh& mesh = good.meshes[0];
+  ASSERT_GE(mesh.new_corners.size(), 9u);
+  ASSERT_FALSE(mesh.map_offsets.empty());
+  const auto fault_of = [&](auto spoil) {
+    ProgressiveStrips bad = good;
+    spoil(bad.meshes[0]);
+    const Result<void> result = check(bad);
+    return result ? Fault::none : result.error().fault;
+  };
+  using M = ProgressiveMesh;
+  for (std::size_t i = 0; i < mesh.new_corners.size(); ++i)
+    EXPECT_EQ(fault_of([&](M& m) { m.new_corners[i] = m.wedges; }), Fault::corner_not_there);
+  EXPECT_EQ(fault_of([](M& m) { m.map_offsets[0] = 3 * m.triangles; }),
+            Fault::offset_past_end);
+  EXPECT_EQ(fault_of([](M& m) { m.base_map[1] = kRestart; }), Fault::map_triangles);
+  EXPECT_EQ(fault_of([](M& m) { m.base_map.push_back(0); }), Fault::map_triangles);
+  EXPECT_EQ(fault_of([](M& m) { m.new_corners.push_back(0); }), Fault::list_length);
+  EXPECT_EQ(fault_of([](M& m) {
+              ++m.triangles;
+              m.group_entries[0] += 3;
+            }),
+            Fault::triangle_growth);
+  EXPECT_EQ(fault_of([](M& m) { ++m.triangles; }), Fault::group_entries);
+}
+
 TEST(Check, RecordsStayInRange) {
   const ProgressiveStrips good = strips_with_all();
   const ProgressiveMesh& mesh = good.meshes[0];

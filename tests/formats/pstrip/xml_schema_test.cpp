@@ -166,6 +166,9 @@ class DescribeIo {
   void reals(const char* name, std::span<const double> v) {
     note(name, {"numbers" + std::to_string(v.size())});
   }
+  void integers(const char* name, std::span<const std::int64_t> v) {
+    note(name, {"integers" + std::to_string(v.size())});
+  }
   void flag(const char* name, bool) { note(name, {"xs:boolean"}); }
   void flag_unless(const char* name, bool, bool absent) {
     note(name, {"xs:boolean", absent ? "true" : "false", true});
@@ -284,6 +287,8 @@ Elements layout_elements() {
       const std::vector<Attribute> more = mesh.faces.attributes;
       mesh.faces.attributes.insert(mesh.faces.attributes.end(), more.begin(), more.end());
     }
+    gather(gathered, strips);
+    strips.profile = Profile::compact;
     gather(gathered, strips);
   }
   Elements elements = gathered.elements();
