@@ -92,7 +92,7 @@ constexpr Text kTexts[] = {
     {Fault::triangle_growth, "vsplits do not bring the triangles that the base lacks"},
     {Fault::triangle_group, "triangle names a group past the end"},
     {Fault::profile_encoding, "index map is not one of triangles, as the profile calls for"},
-    {Fault::position_grid, "grid of the positions cannot be that of numbers of their type"},
+    {Fault::position_grid, "positions are not three numbers of a type that their grid can have"},
     {Fault::face_bounds, "face bounds do not partition the corners"},
     {Fault::face_corner, "face names a wedge past the end"},
     {Fault::face_group, "face names a group past the end"},

@@ -19,7 +19,8 @@ using Check = void(const Document&, Findings&);
 Check totals_summed, base_end, file_bytes, decoder_memory_computed, conformance_computed;
 Check counts_representable, single_wedges_hold, semantics_differ, few_attributes, has_group,
     group_materials_exist, group_entries_summed, counts_of_base, vsplits_fill, strips_fit_map,
-    mesh_wedges_come, packets_hold_vsplits, packets_not_empty, triangle_entries_hold;
+    mesh_wedges_come, packets_hold_vsplits, packets_not_empty, triangle_entries_hold,
+    profile_encodings, position_grids;
 Check rows_counted, rows_point_to_chunks, rows_describe_chunks, row_vertices, row_triangles,
     row_strips, errors_finite, errors_fall, one_side_within_both;
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "formats/pstrip/container/chunk_table.h"
+#include "formats/pstrip/payload/compact/cells.h"
 #include "formats/pstrip/payload/predicates.h"
 #include "validators/checks.h"
 
@@ -168,6 +169,22 @@ void triangle_entries_hold(const Document& doc, Findings& out) {
       continue;  // M-001
     const std::uint64_t entries = std::uint64_t{3} * c.triangles;
     if (c.map_entries != entries) out.add(count_of(m, 4), versus(c.map_entries, entries));
+  }
+}
+
+void profile_encodings(const Document& doc, Findings& out) {
+  if (doc.strips.profile == Profile::plain) return;
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m)
+    if (doc.strips.meshes[m].encoding != MapEncoding::triangles)
+      out.add({.field = Field::mesh, .mesh = m});
+}
+
+void position_grids(const Document& doc, Findings& out) {
+  if (doc.strips.profile == Profile::plain) return;
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m) {
+    const ProgressiveMesh& mesh = doc.strips.meshes[m];
+    if (mesh.position.count != 3 || !PositionCells::is_valid(mesh.grid, mesh.position.type))
+      out.add({.field = Field::position_format, .mesh = m});
   }
 }
 

@@ -96,6 +96,8 @@ constexpr Rule kRules[] = {
      "vertices, wedges and map_entries of BASE agree with MESH; a map of triangles is at most as "
      "long.",
      noticed<Fault::base_counts>},
+    {"PS1052", kError, "C-052", Stage::model,
+     "In the compact profile index maps are maps of triangles.", profile_encodings},
     {"PS1055", kError, "C-055", Stage::file, "The mesh of a PCKT is below the number of meshes.",
      noticed<Fault::packet_mesh>},
     {"PS1056", kError, "C-056", Stage::file,
@@ -232,6 +234,9 @@ constexpr Rule kRules[] = {
     {"PS2060", kError, "M-060", Stage::model,
      "A group of a map of triangles has a third of its map_entries triangles.",
      triangles_of_groups_counted},
+    {"PS2061", kError, "M-061", Stage::model,
+     "In the compact profile positions are three numbers of a type that their grid can have.",
+     position_grids},
     {"PS3001", kError, "S-001", Stage::base,
      "An entry of the base's map is a wedge of the base, a symbol or a restart.", map_wedges_exist},
     {"PS3002", kError, "S-002", Stage::base, "Only a map of the offset encoding holds symbols.",

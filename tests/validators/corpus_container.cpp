@@ -163,6 +163,13 @@ constexpr Case kCases[] = {
      [] { return recut(roof(), [](ChunkFile& f) { f.put("BASE", 4, 5u); }); }},
     {"PS1051_more_entries_than_all.pstrip",
      [] { return recut(growing(), [](ChunkFile& f) { f.put("BASE", 12, 18u); }); }},
+    {"PS1052_map_of_strips_in_a_compact_file.pstripx",
+     [] {
+       ProgressiveStrips strips = roof();
+       strips.profile = Profile::compact;
+       strips.meshes[0].grid.step = 0.125f;
+       return write_xml(strips);
+     }},
     {"PS1055_packet_of_no_mesh.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PCKT", 0, 1u); }); }},
     {"PS1055_packet_of_no_mesh.pstripx",

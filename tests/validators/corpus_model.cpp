@@ -207,6 +207,13 @@ constexpr Case kCases[] = {
      }},
     {"PS2060_triangles_of_a_group.pstrip",
      [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.triangle_group[0] = 1; }); }},
+    {"PS2061_grid_without_a_step.pstripx",
+     [] { return reworded(compact(), "grid_step=\"0.125\"", "grid_step=\"0\""); }},
+    {"PS2061_cells_of_no_power_of_two.pstripx",
+     [] {
+       return reworded(compact(), "grid_step=\"0.125\" grid_origin=\"0 0 0\" grid_exact=\"true\"",
+                       "grid_step=\"0.75\" grid_origin=\"0 0 0\" grid_exact=\"false\"");
+     }},
 
     {"PS3001_entry_past_the_base.pstrip",
      [] { return edited_mesh(roof(), [](ProgressiveMesh& m) { m.base_map[8] = 4; }); }},

@@ -122,6 +122,35 @@ ProgressiveStrips growing() {
   return strips;
 }
 
+ProgressiveStrips compact() {
+  ProgressiveMesh mesh;
+  mesh.encoding = MapEncoding::triangles;
+  mesh.groups.resize(1);
+  mesh.group_entries = {18};
+  mesh.grid.step = 0.125f;
+  mesh.position = {"POSITION", ComponentType::f32, 3, false, {}};
+  mesh.position.data = bytes_of({0.f, 0.f, 0.f, 1.f, 0.f, 0.f,   1.f, 1.f, 0.f, 0.f, 1.f,
+                                 0.f, .5f, .5f, 1.f, .5f, .625f, 1.f, 9.f, 9.f, 9.f});
+  mesh.base_vertices = mesh.base_wedges = 4;
+  mesh.base_map = {1, 2, 0, 2, 3, 0};
+  mesh.vsplits = {{0, 1, 0, 2, 2}, {4, 1, 0, 1, 2}, {6, 1, 0, 0}};
+  mesh.wedge_offset_counts = {2, 1, 0};
+  mesh.map_offsets = {2, 5, 5};
+  mesh.new_corners = {0, 1, 4, 0, 4, 3, 4, 2, 5, 4, 5, 3};
+  mesh.vertices = mesh.wedges = 7;
+  mesh.triangles = mesh.strips = 6;
+  ProgressiveStrips strips;
+  strips.profile = Profile::compact;
+  strips.meshes.push_back(std::move(mesh));
+  strips.bases = {{.error = 0.5f, .one_sided_error = 0.125f}};
+  strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
+                    {.first_vsplit = 1, .vsplits = 1},
+                    {.first_vsplit = 2, .vsplits = 1}};
+  recount_levels(strips);
+  set_digests(strips);
+  return strips;
+}
+
 ProgressiveStrips numbered_faces() {
   ProgressiveStrips strips = roof();
   ProgressiveMesh& mesh = strips.meshes[0];

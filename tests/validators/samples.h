@@ -30,6 +30,9 @@ ProgressiveStrips seam();
 /// one edge, one more split of the apex, and an isolated vertex.
 ProgressiveStrips growing();
 
+/// Of the compact profile: the same roof and split, with single wedges and on a grid, as batches.
+ProgressiveStrips compact();
+
 /// The seam without faces, order and digest.
 ProgressiveStrips bare_seam();
 

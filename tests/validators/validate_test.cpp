@@ -24,6 +24,15 @@ TEST(Validate, TakesEveryGeneratedFile) {
   }
 }
 
+TEST(Validate, TakesTheCompactProfileInBothVariants) {
+  const ProgressiveStrips strips = test::compact();
+  const Bytes binary = write_binary(strips).value(), xml = write_xml(strips);
+  EXPECT_EQ(validate(binary).findings(), std::vector<Finding>{});
+  EXPECT_EQ(validate(xml).findings(), std::vector<Finding>{});
+  EXPECT_EQ(read_binary(binary).value(), strips);
+  EXPECT_EQ(write_binary(read_xml(xml).value()).value(), binary);
+}
+
 TEST(Validate, TellsFourAnswersApart) {
   const Bytes whole = test::written(test::roof());
   const auto verdict_of = [](const Bytes& bytes) { return validate(bytes).verdict(); };

@@ -69,7 +69,7 @@ bool check_counts(const ProgressiveMesh& mesh, Index map_entries, MeshFaults& fa
 bool check_profile(const ProgressiveMesh& mesh, Profile profile, MeshFaults& faults) {
   if (profile == Profile::plain) return true;
   if (mesh.encoding != MapEncoding::triangles) return faults.report(Fault::profile_encoding);
-  return PositionCells::is_valid(mesh.grid, mesh.position.type) ||
+  return (mesh.position.count == 3 && PositionCells::is_valid(mesh.grid, mesh.position.type)) ||
          faults.report(Fault::position_grid, Field::position_format);
 }
 
