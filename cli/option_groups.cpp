@@ -255,7 +255,11 @@ void EncodeOptionsGroup::add_profile(CLI::App& app) {
                                  "Compact: keep positions bit for bit; so it is without "
                                  "--position-bits"));
   exact->excludes(bits);
-  of_grids = {bits, exact};
+  auto* by = add(app.add_option("--order", order,
+                                "Compact: coarsen by error alone, or while hardly anybody sees "
+                                "which vertex goes by bits as well"));
+  takes_one_of(by->capture_default_str(), {"error", "bits"});
+  of_compact = {bits, exact, by};
 }
 
 std::string EncodeOptionsGroup::first_given() const {
@@ -292,9 +296,9 @@ Result<void> does_nothing(const std::string& option, const char* why) {
 
 Result<void> EncodeOptionsGroup::check_profile(Profile wanted) const {
   if (wanted == Profile::plain) {
-    const std::string first = cli::first_given(of_grids);
+    const std::string first = cli::first_given(of_compact);
     if (first.empty()) return {};
-    return does_nothing(first, "the plain profile, which keeps positions as they are");
+    return does_nothing(first, "the plain profile");
   }
   std::string first = cli::first_given(of_strips);
   if (first.empty()) first = cli::first_given(stripping.members);
@@ -311,6 +315,7 @@ Result<EncodeOptions> EncodeOptionsGroup::get() const {
   if (!strip_options) return tl::unexpected(strip_options.error());
   out.strip_options = *strip_options;
   out.placement = placement == "optimal" ? Placement::optimal : Placement::subset;
+  out.order = order == "bits" ? CollapseOrder::bits : CollapseOrder::error;
   out.metric = metric == "memoryless" ? Metric::memoryless : Metric::qem;
   for (const std::string& text : attribute_weights) {
     auto weight = parse_weight(text);

@@ -76,7 +76,7 @@ struct StripOptionsGroup {
   void note_time_limit(const Streams& io) const;
 };
 
-/// The options above and --profile, --position-bits, --lossless, --strips, --stripifier,
+/// The options above and --profile, --position-bits, --lossless, --order, --strips, --stripifier,
 /// --level-cost, --base, --base-error, --placement, --metric, --attribute-weight, --keep-order
 struct EncodeOptionsGroup {
   EncodeOptions options;
@@ -88,10 +88,11 @@ struct EncodeOptionsGroup {
   double base_error = -1;
   std::optional<std::string> profile;
   bool lossless = false;
+  std::string order = "error";
   StripOptionsGroup stripping;
   std::vector<const CLI::Option*> members;  ///< without those of `stripping`
-  std::vector<const CLI::Option*> of_strips,
-      of_grids;  ///< of those, what one profile has no use for
+  /// Of those, what only one profile has a use for.
+  std::vector<const CLI::Option*> of_strips, of_compact;
   void add_to(CLI::App& app);
   /// Combines what was parsed. errors: bad_argument, also for options that the profile ignores
   Result<EncodeOptions> get() const;

@@ -199,6 +199,16 @@ class Encoder {
   bool maps_triangles() const {
     return is_compact() || options_.encoding == MapEncoding::triangles;
   }
+  // Of the collapses that are chosen: middles are between vertices, whatever an edge's best place
+  // is.
+  Placement placement() const { return is_compact() ? Placement::subset : options_.placement; }
+  bool chooses_batches() const { return maps_triangles() && placement() == Placement::subset; }
+  BatchOptions batch_options(bool given) const {
+    constexpr double kPlainWindow = 2;  // for sequences that do not fall into batches
+    BatchOptions out{.schedule = BatchSchedule::of(options_.order)};
+    if (given || !chooses_batches()) out.window = kPlainWindow;
+    return out;
+  }
   bool is_on_grid() const { return options_.position_bits > 0; }
 
   Result<void> choose_grid() {
@@ -279,7 +289,7 @@ class Encoder {
     }
     if (!progress_.go_on("bounds", m, 0.5)) return interrupted();
     Result<Recorded> recorded =
-        maps_triangles() ? record_triangles(m, mesh, triangles, sequence)
+        maps_triangles() ? record_triangles(m, mesh, triangles, batch_options(given), sequence)
                          : record_strips(m, mesh, triangles, sequence, std::move(bounds), threads);
     if (!recorded) return tl::unexpected(recorded.error());
     Encoded out = packed(m, std::move(recorded).value());
@@ -296,12 +306,13 @@ class Encoder {
 
   CollapseSequence choose(Index m, const Mesh& mesh, const Triangulation& triangles,
                           unsigned threads) {
-    // Middles are between vertices of the mesh, whatever an edge's best place is.
     CollapseSequence out = choose_collapses(
         mesh, triangles, options_,
         {.target_triangles = base_triangles(triangles.face.size()),
-         .placement = is_compact() ? Placement::subset : options_.placement,
+         .placement = placement(),
          .metric = options_.metric,
+         .in_batches = chooses_batches(),
+         .order = is_compact() ? options_.order : CollapseOrder::error,
          .threads = threads},
         [&](std::string_view stage, double done) { return progress_.go_on(stage, m, 0.5 * done); });
     if (is_compact() && options_.placement == Placement::optimal)
@@ -342,13 +353,13 @@ class Encoder {
 
   // Batches put the collapses into another order, whose bounds may be larger: then it takes fewer.
   Result<Recorded> record_triangles(Index m, const Mesh& mesh, const Triangulation& triangles,
-                                    CollapseSequence& sequence) {
+                                    const BatchOptions& batches, CollapseSequence& sequence) {
     if (triangles.corners.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
     constexpr double kStricter = 0.98;  // from time to time, so that it ends soon
     double most = options_.base_error.value_or(std::numeric_limits<double>::infinity());
     while (true) {
-      BatchRecording made = record_batches(mesh, triangles, sequence);
+      BatchRecording made = record_batches(mesh, triangles, sequence, batches);
       if (!progress_.go_on("record", m, 0.75)) return interrupted();
       std::vector<ErrorBounds> bounds = level_bounds(mesh, triangles, made.collapses);
       if (options_.base_error && bounds.back().two_sided > *options_.base_error) {

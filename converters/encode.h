@@ -35,6 +35,8 @@ struct EncodeOptions {
   /// With the compact profile: positions are moved to a grid of so many bits, see position_grid().
   /// 0: they stay as they are.
   unsigned position_bits = 0;
+  /// With the compact profile: bits makes files smaller and levels a little worse.
+  CollapseOrder order = CollapseOrder::error;
   /// What follows up to `level_cost` matters only where maps are of strips.
   MapEncoding encoding = MapEncoding::offset;
   std::string stripifier = "best";  ///< a name of stripifiers()

@@ -57,7 +57,7 @@ CASES = [
     (["convert", "good.pstrip", "out.pstripx", "--strips", "naive"], 1, "", "--strips does nothing to progressive"),
     (["convert", "good.pstrip", "out.pstrip", "--profile", "plain"], 1, "", "--profile does nothing to progressive"),
     *((["convert", "tube.obj", "out.pstrip", *option], 1, "", f"{option[0]} does nothing for the plain profile")
-      for option in (("--position-bits", "12"), ("--lossless",))),
+      for option in (("--position-bits", "12"), ("--lossless",), ("--order", "bits"))),
     *((["convert", "tube.obj", "out.pstrip", "--profile", "compact", *option], 1, "",
        f"{option[0]} does nothing for the compact profile")
       for option in (("--goal", "strips"), ("--strips", "naive"), ("--stripifier", "best"), ("--level-cost", "0"))),
@@ -109,6 +109,7 @@ CASES = [
     (["inspect", "good.pstrip"], 0, "plain profile", ""),
     (["convert", "tube.obj", "out.pstrip", "--profile", "compact"], 0, "", "-> out.pstrip ("),
     (["convert", "good.pstrip", "out.pstrip", "--profile", "compact"], 0, "", "-> out.pstrip ("),
+    (["convert", "tube.obj", "out.pstrip", "--profile", "compact", "--order", "bits"], 0, "", "-> out.pstrip ("),
     (["convert", "tube.obj", "out.pstrip", "--profile", "compact", "--position-bits", "12"], 0, "",
      "positions moved by at most "),
     (["convert", "-o", "out.ply", "tube.obj"], 0, "", "-> out.ply ("),

@@ -12,6 +12,7 @@
 #include "converters/decode.h"
 #include "converters/encode.h"
 #include "converters/position_grid.h"
+#include "formats/pstrip/container/binary.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/compact/cells.h"
 #include "formats/pstrip/payload/digest.h"
@@ -94,6 +95,19 @@ TEST(Compact, PacketsGrowByAShare) {
   }
   EXPECT_EQ(before, 8000u);
   EXPECT_LT(strips.packets.size(), 25u);
+}
+
+// The order by bits does what it is for: files of fewer bytes.
+TEST(Compact, OrderByBitsTakesFewer) {
+  const Model model = model_of({test::grid(120)});
+  const auto bytes = [&](CollapseOrder order) {
+    const ProgressiveStrips strips =
+        encoded(model, {.profile = Profile::compact, .position_bits = 12, .order = order});
+    const auto file = write_binary(strips);
+    EXPECT_TRUE(file) << file.error().message;
+    return file->size();
+  };
+  EXPECT_LT(bytes(CollapseOrder::bits), bytes(CollapseOrder::error));
 }
 
 // What bounds claim, by sampling: the surfaces are no farther apart.
