@@ -9,10 +9,10 @@ from model import NONE, require
 
 SIGNATURE = bytes.fromhex("8A5053540D0A1A0A")  # container.md 1
 
-# container.md 4. Those of a rank stand in any order among each other, but for what C-014 and C-016 say.
+# container.md 4. C-016 says more of those that share a rank.
 ORDER = [
-    {b"PSHD"}, {b"sCNE"}, {b"mTRL"}, {b"MESH"}, {b"PIDX"}, {b"BASE"}, {b"PCKT"}, {b"fACE", b"oRDP", b"dGST"},
-    {b"iMGE"}, {b"fRGN"}, {b"PEND"},
+    {b"PSHD"}, {b"sCNE"}, {b"mTRL"}, {b"MESH"}, {b"PIDX"}, {b"BASE"}, {b"PCKT"},
+    {b"FINE", b"fACE", b"oRDP", b"dGST"}, {b"iMGE"}, {b"fRGN"}, {b"PEND"},
 ]
 RANK = {name: rank for rank, names in enumerate(ORDER) for name in names}
 

@@ -237,7 +237,7 @@ def strips(mesh, entries):
 
 
 def triangles(mesh, state):
-    """(corners, entry) of each triangle that the map shows, and how many strips show one (strips.md 4)."""
+    """strips.md 4: (corners, entry) of each triangle of the map, and how many strips show one."""
     resolved = resolve(state.map)
     shown = []
     strips_shown = 0
@@ -350,7 +350,7 @@ def triangle_groups(mesh, state, shown):
 
 
 def faces(mesh, state, table):
-    """The faces of the decoded mesh, in order; table is None at levels but the last (model.md 6)."""
+    """The faces of the decoded mesh (model.md 6); table is None at levels but the last."""
     shown, _ = triangles(mesh, state)
     groups = triangle_groups(mesh, state, shown)
     if table is None:

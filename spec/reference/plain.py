@@ -78,6 +78,13 @@ class Decoder:
             model.apply_record(mesh, state, record)
         return number
 
+    def read_fine(self, _chunk, _meshes):
+        """FINE is known in the compact profile alone."""
+        raise model.Violation("unsupported", "C-007")
+
+    def check_fine(self):
+        """There is none to be missed."""
+
     def level(self, number):
         """The state of a mesh with its elements as bytes."""
         return self.states[number]

@@ -3,8 +3,8 @@
 
 reference.py [--packets N] FILE...
 
-prints a line for each mesh: file, mesh, vertices, wedges, faces, digest and whether that of the file
-agrees, differs or is none. With --packets only the first N packets of each file are applied, and
+prints a line for each mesh: file, mesh, vertices, wedges, faces, digest and whether that of the
+file agrees, differs or is none. With --packets only the first N packets of each file are applied, and
 nothing is compared unless these are all. Ends with 1 when a digest differs or a file is not valid.
 """
 
@@ -12,6 +12,7 @@ import argparse
 import pathlib
 import sys
 
+import compact
 import container
 import model
 import plain
@@ -82,9 +83,8 @@ class File:
 
     def decode(self, packets):
         """BASE, PCKT and all that follows, up to a number of packets."""
-        if self.header.profile != 0:
-            raise model.Violation("unsupported", "C-031")
-        self.decoder = plain.Decoder(self.meshes)
+        profile = compact if self.header.profile == 1 else plain
+        self.decoder = profile.Decoder(self.meshes)
         rows = iter(self.rows)
         for chunk in self.named(b"BASE"):
             self.check_row(next(rows), self.decoder.read_base(chunk), 0)
@@ -102,12 +102,12 @@ class File:
         self.read_rest()
 
     def read_rest(self):
-        """fACE, oRDP and dGST (container.md 8, C-016)."""
+        """FINE, fACE, oRDP and dGST (container.md 8, C-016)."""
         before = (-1, -1)
-        readers = {b"fACE": container.read_face, b"oRDP": container.read_ordp,
-                   b"dGST": container.read_dgst}
+        readers = {b"FINE": self.decoder.read_fine, b"fACE": container.read_face,
+                   b"oRDP": container.read_ordp, b"dGST": container.read_dgst}
         orders = {}
-        results = {b"fACE": self.tables, b"oRDP": orders, b"dGST": self.digests}
+        results = {b"FINE": {}, b"fACE": self.tables, b"oRDP": orders, b"dGST": self.digests}
         for chunk in self.chunks:
             if chunk.type in readers:
                 number, result = readers[chunk.type](chunk, self.meshes)
@@ -115,6 +115,7 @@ class File:
                 require(before < place, "C-016")
                 before = place
                 results[chunk.type][number] = result
+        self.decoder.check_fine()
         for number, mesh in enumerate(self.meshes):
             table = self.tables.get(number)
             has_more = mesh.face_attributes or (table and table.group)

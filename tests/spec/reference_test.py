@@ -1,4 +1,4 @@
-"""The decoder that follows the text alone reads what the program wrote, and refuses what it must."""
+"""The decoder from the text alone reads what the program wrote and refuses what it must."""
 
 import pathlib
 import re
@@ -16,10 +16,11 @@ EXEMPT = {"C-033", "C-035"}  # of the container's page, by D-020
 
 
 def clauses_to_refuse():
-    """Those that D-020 lists, and all of the container's page but the exempt ones."""
+    """Those that D-020 lists, those of the compact profile, and the container's but the exempt."""
     page = (SOURCE / "spec/container.md").read_text()
     demand = re.search(r"\[D-020\](.*?)It MAY leave", page, re.DOTALL)[1]
     out = set(re.findall(r"\[(C-\d+)\][^\[]*?MUST", page)) - EXEMPT
+    out |= set(re.findall(r"\[(K-\d+)\]", (SOURCE / "spec/compact.md").read_text()))
     for letter, first, last in re.findall(r"\b([MSV])-(\d+)(?: to [MSV]-(\d+))?", demand):
         out |= {f"{letter}-{n:03}" for n in range(int(first), int(last or first) + 1)}
     return out

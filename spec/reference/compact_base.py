@@ -1,0 +1,190 @@
+"""The run of BASE in the compact profile (compact.md 5)."""
+
+import collections
+import dataclasses
+
+import model
+from cells import BOUND
+from model import require
+from run import BitModel, Models, NumberModel, Run, SymbolModel, length
+
+AXES = range(3)
+
+
+@dataclasses.dataclass
+class Corner:
+    vertex: int
+    wedge: int
+
+
+@dataclasses.dataclass
+class Gate:
+    """An edge of the triangle behind it; each of the three is a corner of that triangle."""
+
+    start: Corner
+    end: Corner
+    third: Corner
+
+
+class BaseRun:
+    """Decodes the run; the results are position, vertex_of, wedges, map and triangle_group."""
+
+    def __init__(self, mesh, map_entries, components, run):
+        self.mesh = mesh
+        self.run = run
+        self.components = components
+        self.place, self.third = SymbolModel(), SymbolModel()
+        self.next, self.usual = BitModel(), BitModel()
+        self.next_wedge, self.group = BitModel(), BitModel()
+        self.near, self.far = Models(NumberModel), Models(NumberModel)
+        self.component = Models(NumberModel)
+        self.queue = collections.deque()
+        self.position = []
+        self.vertex_of = []
+        self.wedges = []  # for each the cells of all components
+        self.map = []
+        self.triangle_group = []
+        self.last_position = [0, 0, 0]
+        self.last_shown = {}  # at a vertex
+        for _ in range(map_entries // 3):
+            self.read_triangle()
+        self.read_rest()
+
+    def read_triangle(self):
+        """*A triangle*, its group and its gates."""
+        place = self.place.read(self.run)
+        while place == 1:
+            require(self.queue, "K-006")
+            self.queue.popleft()
+            place = self.place.read(self.run)
+        require(place == 2 or (place == 0 and self.queue), "K-006")
+        corners = self.read_at_gate(self.queue[0]) if place == 0 else self.read_at_no_gate()
+        require(len({corner.vertex for corner in corners}) == 3, "K-006")
+        self.map += [corner.wedge for corner in corners]
+        self.read_group()
+        a, b, c = corners
+        if place == 0:
+            self.queue.popleft()
+        self.queue.append(Gate(b, c, a))
+        self.queue.append(Gate(c, a, b))
+        if place == 2:
+            self.queue.append(Gate(a, b, c))
+
+    def read_at_gate(self, gate):
+        u, v = gate.start.vertex, gate.end.vertex
+        first = self.read_corner(v, gate.end.wedge)
+        second = self.read_corner(u, gate.start.wedge)
+        symbol = self.third.read(self.run)
+        if symbol == 0:
+            vertex = len(self.position)
+        elif symbol == 15:
+            vertex = self.run.raw(length(self.mesh.base_vertices))
+            require(vertex < len(self.position), "K-006")
+        else:
+            likely = self.likely(u, v)
+            require(symbol <= len(likely), "K-006")
+            vertex = likely[symbol - 1]
+        return first, second, self.read_third_corner(vertex, gate, first, second)
+
+    def read_at_no_gate(self):
+        corners = []
+        for _ in range(3):
+            if self.next.read(self.run):
+                vertex = len(self.position)
+            else:
+                vertex = self.run.raw(length(self.mesh.base_vertices))
+                require(vertex < len(self.position), "K-006")
+            if vertex == len(self.position):
+                self.read_position(self.far, self.last_position)
+            corners.append(self.read_corner(vertex, self.last_shown.get(vertex)))
+        return corners
+
+    def likely(self, u, v):
+        """The vertices that the third one is likely to be."""
+        n = len(self.queue)
+        out = []
+        for i in range(1, min(8, n)):
+            for gate in (self.queue[i], self.queue[n - i]):
+                ends = (gate.start.vertex, gate.end.vertex)
+                for first, second in (ends, ends[::-1]):
+                    if first in (u, v) and second not in (u, v) and second not in out:
+                        out.append(second)
+        return out[:14]
+
+    def read_third_corner(self, vertex, gate, first, second):
+        if vertex == len(self.position):
+            start, end, third = (self.position[corner.vertex]
+                                 for corner in (gate.start, gate.end, gate.third))
+            self.read_position(self.near, [start[k] + end[k] - third[k] for k in AXES])
+        against = [a + b - c for a, b, c in zip(*(self.wedges[corner.wedge]
+                                                  for corner in (first, second, gate.third)))]
+        return self.read_corner(vertex, self.last_shown.get(vertex), against)
+
+    def read_position(self, models, against):
+        """A new vertex, the next one."""
+        require(len(self.position) < self.mesh.base_vertices, "K-006")
+        position = tuple(against[k] + models[k].read(self.run) for k in AXES)
+        require(all(abs(c) < BOUND for c in position), "K-006")
+        self.position.append(position)
+        self.last_position = position
+
+    def read_corner(self, vertex, usual, against=None):
+        """*A corner*, but for its position: its wedge, whose attributes follow when it is new."""
+        wedge = self.read_wedge(vertex, usual)
+        if wedge == len(self.wedges):
+            if against is None and usual is not None:
+                against = self.wedges[usual]
+            self.read_new_wedge(vertex, against)
+        require(self.vertex_of[wedge] == vertex, "K-006")
+        self.last_shown[vertex] = wedge
+        return Corner(vertex, wedge)
+
+    def read_wedge(self, vertex, usual):
+        if self.mesh.single_wedges:
+            return vertex
+        if usual is not None and self.usual.read(self.run):
+            return usual
+        if self.next_wedge.read(self.run):
+            return len(self.wedges)
+        wedge = self.run.raw(length(self.mesh.base_wedges))
+        require(wedge < len(self.wedges), "K-006")
+        return wedge
+
+    def read_new_wedge(self, vertex, against):
+        """against: a cell for each component, or None for those of the wedge coded last."""
+        require(len(self.wedges) < self.mesh.base_wedges, "K-006")
+        if against is None:
+            against = self.wedges[-1] if self.wedges else [0] * self.components
+        cells = tuple(against[k] + self.component[k].read(self.run) for k in range(self.components))
+        require(all(abs(c) < BOUND for c in cells), "K-006")
+        self.vertex_of.append(vertex)
+        self.wedges.append(cells)
+
+    def read_group(self):
+        """*The group*."""
+        groups = len(self.mesh.groups)
+        if groups == 1:
+            return
+        before = self.triangle_group[-1] if self.triangle_group else 0
+        if self.group.read(self.run):
+            group = before
+        else:
+            group = self.run.raw(length(groups - 1))
+            require(group < groups, "M-019")
+        self.triangle_group.append(group)
+
+    def read_rest(self):
+        """Vertices and wedges that no triangle has."""
+        while len(self.position) < self.mesh.base_vertices:
+            self.read_position(self.far, self.last_position)
+        while len(self.wedges) < self.mesh.base_wedges:
+            vertex = len(self.wedges)
+            if not self.mesh.single_wedges:
+                vertex = self.run.raw(length(self.mesh.base_vertices))
+                require(vertex < self.mesh.base_vertices, "K-006")
+            self.read_new_wedge(vertex, None)
+        self.run.end()
+
+
+def read(mesh, map_entries, components, data):
+    return BaseRun(mesh, map_entries, components, Run(data))
