@@ -26,13 +26,6 @@ inline constexpr std::uint32_t kShares = 1u << kShareBits;
 /// How probable a zero is, learned.
 class BitModel {
  public:
-  /// zeros  as of zeros(), expected from the start
-  static BitModel expecting(std::uint32_t zeros) {
-    BitModel out;
-    out.zeros_ = static_cast<std::uint16_t>(zeros);
-    out.seen_ = 8;
-    return out;
-  }
   std::uint32_t zeros() const { return zeros_; }  ///< of kShares; 32 to kShares - 32
   void learn(bool one) {
     const unsigned rate = seen_ < 8 ? 3 : seen_ < 24 ? 4 : seen_ < 60 ? 5 : 6;

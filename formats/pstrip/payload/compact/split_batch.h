@@ -110,8 +110,10 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     const GridSplit* const wanted = split_of(vertex);
     BitModel& splits =
         state.models
-            .splits[std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
+            .splits[state.is_new[vertex]]
+                   [std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
                    [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)];
+    state.is_new[vertex] = 0;
     if (!coder.bit(splits, wanted != nullptr)) continue;
     if (state.mesh.vertex_count() >= limits.vertices)
       return fail(ErrorCode::corrupt, "more vertices than the mesh has");
@@ -128,6 +130,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     }
     const Result<Index> added = apply(state, vertex, ring, split);
     if (!added) return tl::unexpected<Error>(added.error());
+    state.is_new[vertex] = state.is_new[*added] = 1;
     state.normal_error[*added] = state.normal_error[vertex];
     for (unsigned i = 0; i < ring.size; ++i)
       if (ring.vertex[i] != kNone && state.split_around[ring.vertex[i]] < 255)

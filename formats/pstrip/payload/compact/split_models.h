@@ -86,43 +86,16 @@ class ScaledNumberModel {
   std::array<std::array<std::array<BitModel, 3>, kRelative>, 2> leading_;
 };
 
-// Of 256 vertices with so many faces (15: or more) and neighbours that split in the batch (7: or
-// more), how many do not: what 14 scanned, modelled and CAD meshes taught.
-// clang-format off
-inline constexpr std::array<std::array<std::uint8_t, 8>, 16> kStays = {{
-    {235, 171, 171, 171, 171, 171, 171, 171},
-    {224, 194, 174, 171, 171, 171, 171, 171},
-    {250, 229, 187, 171, 171, 171, 171, 171},
-    {225, 235, 220, 182, 171, 171, 171, 171},
-    {229, 232, 240, 235, 230, 171, 171, 171},
-    {221, 218, 220, 220, 224, 218, 171, 171},
-    {195, 185, 186, 186, 193, 207, 203, 171},
-    {128, 113, 104, 87, 81, 81, 100, 164},
-    {102, 80, 65, 47, 32, 23, 22, 50},
-    {97, 74, 61, 43, 29, 28, 24, 56},
-    {110, 80, 61, 49, 34, 22, 42, 68},
-    {118, 87, 80, 69, 53, 52, 67, 82},
-    {139, 121, 98, 88, 84, 99, 112, 130},
-    {164, 127, 116, 128, 139, 154, 121, 163},
-    {190, 152, 140, 148, 161, 157, 164, 160},
-    {166, 150, 135, 164, 154, 167, 170, 162},
-}};
-// clang-format on
-
 /// All that is learned while the splits of a mesh go by; the same on both sides.
 struct SplitModels {
-  explicit SplitModels(Placement placement) : chord(placement) {
-    for (unsigned i = 0; i < kFaces; ++i)
-      for (unsigned k = 0; k < kSplit; ++k)
-        splits[i][k] = BitModel::expecting(kStays[i][k] * (kShares >> 8));
-  }
+  explicit SplitModels(Placement placement) : chord(placement) {}
 
   static constexpr unsigned kFaces = 16;  ///< of a vertex, more count as one less than this
   static constexpr unsigned kSplit = 8;   ///< neighbours split in this batch
   static constexpr unsigned kRings = 24;  ///< sizes of rings
 
-  std::array<std::array<BitModel, kSplit>, kFaces> splits;  ///< by faces and neighbours split
-  std::array<std::array<SymbolModel, kRings>, 3> sector;    ///< ring closed, open, none; its size
+  std::array<std::array<std::array<BitModel, kSplit>, kFaces>, 2> splits;  ///< new, faces, seen
+  std::array<std::array<SymbolModel, kRings>, 3> sector;  ///< ring closed, open, none; its size
   ChordWeights chord;
   std::array<ScaledNumberModel, 2> tangential;  ///< first and second
   ScaledNumberModel normal;

@@ -31,6 +31,7 @@ struct SplitState {
   std::vector<GridPoint> position;
   /// All vertices, neighbours near each other: each new one stands behind the one it came from.
   std::vector<Index> order;
+  std::vector<std::uint8_t> is_new;        ///< came into being or split in the batch before
   std::vector<std::uint8_t> split_around;  ///< neighbours split in this batch; stops at 255
   std::vector<std::uint8_t> normal_error;  ///< quarter octaves, smoothed
   SplitModels models;
@@ -44,6 +45,7 @@ struct SplitState {
   /// Room for the data of a vertex that the mesh has already.
   void extend(GridPoint at) {
     position.push_back(at);
+    is_new.push_back(0);
     split_around.push_back(0);
     normal_error.push_back(0);
   }
