@@ -1,5 +1,6 @@
 """Numbers and the cells that they lie in (compact.md 3)."""
 
+import math
 import struct
 
 from model import require
@@ -17,7 +18,7 @@ class FloatCells:
     def __init__(self, kind, e, exact):
         self.size, self.mantissa, self.lowest, most = {
             F32: (32, 24, -149, 105), F64: (64, 53, -1074, 1001)}[kind]
-        require(self.lowest <= e <= most, "K-003")
+        require(self.lowest <= e <= most, "K-002")
         self.e = e
         self.exact = exact
 
@@ -55,7 +56,7 @@ class IntegerCells:
     """Integers in cells of 2^e."""
 
     def __init__(self, kind, e, exact):
-        require(0 <= e <= (9 if kind in (I32, U32) else 0), "K-003")
+        require(0 <= e <= (9 if kind in (I32, U32) else 0), "K-002")
         self.code = INTEGER_CODES[kind]
         self.e = e
         self.exact = exact
@@ -70,7 +71,7 @@ class IntegerCells:
         try:
             return struct.pack("<" + self.code, (c << self.e) + rest)
         except struct.error:
-            require(False, "K-003")
+            require(False, "K-002")
 
 
 class GridPoints:
@@ -86,8 +87,12 @@ class GridPoints:
         return 0
 
     def number(self, c, rest=None):
-        # Python's floats are f64; struct rounds to f32 to nearest, ties to even.
-        return struct.pack("<f", float(self.origin + c) * self.step)
+        # Python's floats are f64; struct rounds to f32 to nearest, ties to even, but for infinity.
+        product = float(self.origin + c) * self.step
+        try:
+            return struct.pack("<f", product)
+        except OverflowError:
+            return struct.pack("<f", math.copysign(math.inf, product))
 
 
 def of_attribute(form, e, exact):
@@ -105,16 +110,16 @@ def exponent_of(step):
 
 
 def of_positions(form, grid):
-    """The cells of each axis by the grid of the mesh (K-002)."""
+    """The cells of each axis by the grid of the mesh (M-061)."""
     if grid.step == 0:
-        require(form.type in (I8, U8, I16, U16), "K-002")
+        require(form.type in (I8, U8, I16, U16), "M-061")
         return [IntegerCells(form.type, 0, True)] * 3
-    require(0 < grid.step < float("inf"), "K-002")
+    require(0 < grid.step < float("inf"), "M-061")
     if grid.exact:
-        require(form.type == F32, "K-002")
-        require(all(abs(origin) <= 1 << 29 for origin in grid.origin), "K-002")
+        require(form.type == F32, "M-061")
+        require(all(abs(origin) <= 1 << 29 for origin in grid.origin), "M-061")
         return [GridPoints(origin, grid.step) for origin in grid.origin]
-    require(form.type in (F32, F64) and not any(grid.origin), "K-002")
+    require(form.type in (F32, F64) and not any(grid.origin), "M-061")
     e = exponent_of(grid.step)
-    require(e is not None, "K-002")
+    require(e is not None, "M-061")
     return [FloatCells(form.type, e, False)] * 3

@@ -12,7 +12,7 @@ from run import BitModel, Models, NumberModel, Run, SymbolModel, length, read_va
 from stars import ABSENT, Stars
 
 BATCH = 0  # kind of a PCKT
-MOST_COMPONENTS = 256
+MOST_COMPONENTS = 1024
 
 
 class MeshDecoder:
@@ -20,7 +20,8 @@ class MeshDecoder:
 
     def __init__(self, mesh, payload):
         self.mesh = mesh
-        require(mesh.encoding == model.TRIANGLES and mesh.position.count == 3, "K-001")
+        require(mesh.encoding == model.TRIANGLES, "C-052")
+        require(mesh.position.count == 3, "M-061")
         self.components = sum(form.count for form in mesh.wedge_attributes)
         require(self.components <= MOST_COMPONENTS, "K-001")
         self.position_cells = cells.of_positions(mesh.position, mesh.grid)
@@ -75,7 +76,7 @@ class MeshDecoder:
                        min(in_rings.get(vertex, 0), 7))
             if self.splits[context].read(run):
                 new = len(self.state.position)
-                require(new < self.mesh.vertices, "K-007")
+                require(new < self.mesh.vertices, "K-006")
                 ring = self.read_split(run, vertex)
                 for place in ring.places if ring else []:
                     if place.vertex is not ABSENT:
@@ -96,7 +97,7 @@ class MeshDecoder:
         placement = self.mesh.placement
         new, other = place_split(placement, self.state.position, vertex, split.step)
         entries = len(self.state.map) + 3 * len(split.faces)
-        require(entries <= self.mesh.map_entries, "K-007")
+        require(entries <= self.mesh.map_entries, "K-006")
         wedges = SplitWedges(self.mesh, self.state, self.stars, self.wedge_lists,
                              self.wedge_models, run, split)
         self.apply(wedges.record(new, other if placement == OPTIMAL else None))
@@ -107,7 +108,7 @@ class MeshDecoder:
         neighbours = self.stars.neighbours(vertex)
         moves = [self.moves.read(run) for _ in self.stars.star[vertex]]
         faces = self.added_faces.read_count(run, 28)
-        require(faces <= self.mesh.triangles, "K-007")
+        require(faces <= self.mesh.triangles, "K-006")
         vertices = len(self.state.position)
         split = self.stars.split_star(vertex, moves)
         for _ in range(faces):
@@ -117,26 +118,26 @@ class MeshDecoder:
                 third = neighbours[third]
             else:
                 third = run.raw(length(vertices))
-            require(third < vertices and third != vertex, "K-010")
+            require(third < vertices and third != vertex, "K-009")
             self.stars.add_face_of_split(split, third, forward)
         split.step = [self.long_steps[k].read(run) for k in AXES]
         self.steps.start_with_error_of(vertex, split.q)
         return split
 
     def apply(self, record):
-        require(len(self.state.vertex_of) + len(record.new_wedges) <= self.mesh.wedges, "K-007")
+        require(len(self.state.vertex_of) + len(record.new_wedges) <= self.mesh.wedges, "K-006")
         model.apply_record(self.mesh, self.state, record)
 
     def read_own(self, run, count):
         """Vertices that come from no other (compact.md 6.5)."""
         for _ in range(count):
             position = tuple(self.own_position[k] + self.own_steps[k].read(run) for k in AXES)
-            require(all(abs(c) < BOUND for c in position), "K-008")
+            require(all(abs(c) < BOUND for c in position), "K-007")
             self.own_position = position
             parent_position = position if self.mesh.placement == OPTIMAL else None
             record = model.Record(self.stars.new_vertex(), position, parent_position)
             wedges = 1 if self.mesh.single_wedges else self.own_wedges.read_count(run, 31)
-            require(wedges <= self.mesh.wedges - len(self.state.vertex_of), "K-007")
+            require(wedges <= self.mesh.wedges - len(self.state.vertex_of), "K-006")
             self.wedge_lists.of_vertex.append([])
             before = len(self.state.vertex_of) - 1
             attributes = Attributes(self.mesh, self.state, self.wedge_models, run, None)
@@ -237,14 +238,14 @@ class Decoder:
         decoder = self.decoders[number]
         state = decoder.state
         require(first_vsplit == state.vsplits, "M-020")
-        require(0 < vsplits <= decoder.mesh.vsplits - first_vsplit, "K-007")
+        require(0 < vsplits <= decoder.mesh.vsplits - first_vsplit, "K-006")
         run = Run(payload.rest())
         if kind == BATCH:
             decoder.read_batch(run)
         else:
             decoder.read_own(run, vsplits)
         run.end()
-        require(state.vsplits == first_vsplit + vsplits, "K-007")
+        require(state.vsplits == first_vsplit + vsplits, "K-006")
         return number
 
     def read_fine(self, chunk, meshes):

@@ -54,12 +54,12 @@ class BaseRun:
         """*A triangle*, its group and its gates."""
         place = self.place.read(self.run)
         while place == 1:
-            require(self.queue, "K-006")
+            require(self.queue, "K-005")
             self.queue.popleft()
             place = self.place.read(self.run)
-        require(place == 2 or (place == 0 and self.queue), "K-006")
+        require(place == 2 or (place == 0 and self.queue), "K-005")
         corners = self.read_at_gate(self.queue[0]) if place == 0 else self.read_at_no_gate()
-        require(len({corner.vertex for corner in corners}) == 3, "K-006")
+        require(len({corner.vertex for corner in corners}) == 3, "K-005")
         self.map += [corner.wedge for corner in corners]
         self.read_group()
         a, b, c = corners
@@ -79,10 +79,10 @@ class BaseRun:
             vertex = len(self.position)
         elif symbol == 15:
             vertex = self.run.raw(length(self.mesh.base_vertices))
-            require(vertex < len(self.position), "K-006")
+            require(vertex < len(self.position), "K-005")
         else:
             likely = self.likely(u, v)
-            require(symbol <= len(likely), "K-006")
+            require(symbol <= len(likely), "K-005")
             vertex = likely[symbol - 1]
         return first, second, self.read_third_corner(vertex, gate, first, second)
 
@@ -93,7 +93,7 @@ class BaseRun:
                 vertex = len(self.position)
             else:
                 vertex = self.run.raw(length(self.mesh.base_vertices))
-                require(vertex < len(self.position), "K-006")
+                require(vertex < len(self.position), "K-005")
             if vertex == len(self.position):
                 self.read_position(self.far, self.last_position)
             corners.append(self.read_corner(vertex, self.last_shown.get(vertex)))
@@ -122,9 +122,9 @@ class BaseRun:
 
     def read_position(self, models, against):
         """A new vertex, the next one."""
-        require(len(self.position) < self.mesh.base_vertices, "K-006")
+        require(len(self.position) < self.mesh.base_vertices, "K-005")
         position = tuple(against[k] + models[k].read(self.run) for k in AXES)
-        require(all(abs(c) < BOUND for c in position), "K-006")
+        require(all(abs(c) < BOUND for c in position), "K-005")
         self.position.append(position)
         self.last_position = position
 
@@ -135,7 +135,7 @@ class BaseRun:
             if against is None and usual is not None:
                 against = self.wedges[usual]
             self.read_new_wedge(vertex, against)
-        require(self.vertex_of[wedge] == vertex, "K-006")
+        require(self.vertex_of[wedge] == vertex, "K-005")
         self.last_shown[vertex] = wedge
         return Corner(vertex, wedge)
 
@@ -147,16 +147,16 @@ class BaseRun:
         if self.next_wedge.read(self.run):
             return len(self.wedges)
         wedge = self.run.raw(length(self.mesh.base_wedges))
-        require(wedge < len(self.wedges), "K-006")
+        require(wedge < len(self.wedges), "K-005")
         return wedge
 
     def read_new_wedge(self, vertex, against):
         """against: a cell for each component, or None for those of the wedge coded last."""
-        require(len(self.wedges) < self.mesh.base_wedges, "K-006")
+        require(len(self.wedges) < self.mesh.base_wedges, "K-005")
         if against is None:
             against = self.wedges[-1] if self.wedges else [0] * self.components
         cells = tuple(against[k] + self.component[k].read(self.run) for k in range(self.components))
-        require(all(abs(c) < BOUND for c in cells), "K-006")
+        require(all(abs(c) < BOUND for c in cells), "K-005")
         self.vertex_of.append(vertex)
         self.wedges.append(cells)
 
@@ -181,7 +181,7 @@ class BaseRun:
             vertex = len(self.wedges)
             if not self.mesh.single_wedges:
                 vertex = self.run.raw(length(self.mesh.base_vertices))
-                require(vertex < self.mesh.base_vertices, "K-006")
+                require(vertex < self.mesh.base_vertices, "K-005")
             self.read_new_wedge(vertex, None)
         self.run.end()
 

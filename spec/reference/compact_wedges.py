@@ -136,12 +136,12 @@ class SplitWedges:
             self.lists.uses[self.shown[corner]] += 1
         if regular:
             unseen = self.models.unseen.read_count(self.run, 31)
-            require(unseen <= self.mesh.wedges - self.w - self.new, "K-007")
+            require(unseen <= self.mesh.wedges - self.w - self.new, "K-006")
             for _ in range(unseen):
                 self.add_new_wedge()
 
     def add_new_wedge(self):
-        require(self.w + self.new < self.mesh.wedges, "K-007")
+        require(self.w + self.new < self.mesh.wedges, "K-006")
         self.lists.uses.append(0)
         self.new += 1
 
@@ -153,8 +153,8 @@ class SplitWedges:
         return self.lists.uses[wedge] > self.moved_uses(wedge)
 
     def reassign(self, wedge):
-        require(wedge < self.w and self.state.vertex_of[wedge] == self.split.p, "K-009")
-        require(not self.stays(wedge) and wedge not in self.reassigned, "K-009")
+        require(wedge < self.w and self.state.vertex_of[wedge] == self.split.p, "K-008")
+        require(not self.stays(wedge) and wedge not in self.reassigned, "K-008")
         self.reassigned.append(wedge)
         self.lists.go_over(wedge, self.split.p, self.split.q)
 
@@ -171,21 +171,21 @@ class SplitWedges:
 
     def read_not_regular(self):
         new = self.models.new_wedges.read_count(self.run, 31)
-        require(new <= self.mesh.wedges - self.w, "K-007")
+        require(new <= self.mesh.wedges - self.w, "K-006")
         for _ in range(new):
             self.add_new_wedge()
         for _ in range(self.models.taken.read_count(self.run, 31)):
             self.reassign(self.run.raw(length(self.w)))
         for corner in self.split.moved:
             i = self.run.raw(length(new))
-            require(i <= new, "K-009")
+            require(i <= new, "K-008")
             if i < new:
                 self.shown[corner] = self.w + i
             else:
-                require(self.before[corner] in self.reassigned, "K-009")
+                require(self.before[corner] in self.reassigned, "K-008")
 
     def corner_beyond(self, corners, third, before):
-        """The first corner with the third vertex before it (or behind), else the other way round."""
+        """The first corner with the third vertex before it, or behind; else the other way."""
         sides = (self.stars.before, self.stars.behind)
         for side in sides if before else sides[::-1]:
             for corner in corners:
@@ -260,7 +260,7 @@ class SplitWedges:
         end = self.w + self.new + regular
         p = self.read_place(self.models.of_parent[spare_of_p],
                             self.likely(self.split.p, (as_new[0], as_kept[0]), None), end)
-        require(p < self.w, "K-009")
+        require(p < self.w, "K-008")
         third = self.read_place(self.models.of_third[spare_of_third],
                                 self.likely(face.third, (as_new[2], as_kept[2]), p), end)
         added = [self.new_wedge_from(p, regular), as_new[1]]
@@ -288,11 +288,11 @@ class SplitWedges:
         return likely[symbol] if symbol < len(likely) else self.run.raw(length(end))
 
     def check_face(self, face, p, q, third):
-        """K-009: each wedge is one of its vertex."""
-        require(max(p, third) < self.w and q < self.w + self.new, "K-009")
-        require(self.state.vertex_of[p] == self.split.p and p not in self.reassigned, "K-009")
-        require(q >= self.w or q in self.reassigned, "K-009")
-        require(self.state.vertex_of[third] == face.third, "K-009")
+        """K-008: each wedge is one of its vertex."""
+        require(max(p, third) < self.w and q < self.w + self.new, "K-008")
+        require(self.state.vertex_of[p] == self.split.p and p not in self.reassigned, "K-008")
+        require(q >= self.w or q in self.reassigned, "K-008")
+        require(self.state.vertex_of[third] == face.third, "K-008")
 
     # Groups, 7.2.
 

@@ -219,11 +219,11 @@ class Steps:
 
 
 def place_split(placement, position, vertex, step):
-    """(position of the new vertex, of the other one after the split), K-008."""
-    require(all(abs(component) <= 2 * (BOUND - 1) for component in step), "K-008")
+    """(position of the new vertex, of the other one after the split), K-007."""
+    require(all(abs(component) <= 2 * (BOUND - 1) for component in step), "K-007")
     other = position[vertex]
     if placement == OPTIMAL:
         other = tuple(other[k] - (step[k] >> 1) for k in AXES)
     new = tuple(other[k] + step[k] for k in AXES)
-    require(all(abs(c) < BOUND for c in (*other, *new)), "K-008")
+    require(all(abs(c) < BOUND for c in (*other, *new)), "K-007")
     return new, other

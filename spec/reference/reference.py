@@ -4,7 +4,7 @@
 reference.py [--packets N] FILE...
 
 prints a line for each mesh: file, mesh, vertices, wedges, faces, digest and whether that of the
-file agrees, differs or is none. With --packets only the first N packets of each file are applied, and
+file agrees, differs or is none. With --packets only the first N packets of each file are applied;
 nothing is compared unless these are all. Ends with 1 when a digest differs or a file is not valid.
 """
 

@@ -24,16 +24,16 @@ def toward_zero(x, y):
 
 
 def read_varint(payload, bound=1 << 32):
-    """A varint of a payload's head, below a bound (compact.md 4, K-004)."""
+    """A varint of a payload's head, below a bound (compact.md 4, K-003)."""
     value = 0
     shift = 0
     while True:
         byte = payload.u8()
         value |= (byte & 0x7F) << shift
-        require(value < bound, "K-004")
+        require(value < bound, "K-003")
         shift += 7
         if byte < 0x80:
-            require(byte != 0 or shift == 7, "K-004")
+            require(byte != 0 or shift == 7, "K-003")
             return value
 
 
@@ -41,14 +41,14 @@ class Run:
     """The rest of a payload (compact.md 4)."""
 
     def __init__(self, data):
-        require(len(data) % 2 == 0, "K-005")
+        require(len(data) % 2 == 0, "K-004")
         self.words = [data[i] | data[i + 1] << 8 for i in range(0, len(data), 2)]
         self.at = 0
         self.x = self.word() << 16
         self.x |= self.word()
 
     def word(self):
-        require(self.at < len(self.words), "K-005")
+        require(self.at < len(self.words), "K-004")
         self.at += 1
         return self.words[self.at - 1]
 
@@ -85,7 +85,7 @@ class Run:
             a += w
 
     def end(self):
-        require(self.at == len(self.words) and self.x == 1 << 16, "K-005")
+        require(self.at == len(self.words) and self.x == 1 << 16, "K-004")
 
 
 def rate(first, bounds, m):

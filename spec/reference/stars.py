@@ -131,7 +131,7 @@ class Stars:
         return split
 
     def split_star(self, vertex, moves):
-        """A split in the long form, without its faces: moves says which corners go to the new one."""
+        """A split in the long form, without its faces; moves: which corners go to the new one."""
         new = self.new_vertex()
         star, self.star[vertex] = self.star[vertex], []
         split = Split(vertex, new, [], [], [])
