@@ -141,6 +141,15 @@ constexpr Text kTexts[] = {
     {Fault::offset_not_of_parent, "map offset is not that of a wedge of the parent"},
     {Fault::isolated_vertex_moves, "vertex of its own has two positions"},
     {Fault::corner_not_there, "corner of a new triangle is not there"},
+    {Fault::compact_mesh, "mesh is none of the compact profile"},
+    {Fault::compact_cells, "cells do not fit the type of their attribute"},
+    {Fault::compact_number, "number of a head is not in its shortest form, or too large"},
+    {Fault::compact_run, "run of codes does not end with its last one"},
+    {Fault::compact_base, "base names what is not there, a vertex twice, or a wedge of two"},
+    {Fault::compact_counts, "packet brings more than the mesh has, or not what it says"},
+    {Fault::compact_step, "vertex leaves the cells"},
+    {Fault::compact_wedge, "wedge is not one of its vertex"},
+    {Fault::compact_face, "third vertex of a new face is not there"},
 };
 
 constexpr bool are_in_order() {

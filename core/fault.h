@@ -140,7 +140,17 @@ enum class Fault : std::uint8_t {
   offset_not_of_parent,
   isolated_vertex_moves,
   corner_not_there,
+  // Runs of codes.
+  compact_mesh,
+  compact_cells,
+  compact_number,
+  compact_run,
+  compact_base,
+  compact_counts,
+  compact_step,
+  compact_wedge,
+  compact_face,
 };
-inline constexpr Fault kLastFault = Fault::corner_not_there;
+inline constexpr Fault kLastFault = Fault::compact_face;
 
 }  // namespace pstrips::inline core

@@ -82,6 +82,11 @@ ErrorCode code_of(Fault fault);
 /// offset  of the chunk or element where the fault was met; a byte that `at` names goes before it
 Error error_of(const FaultAt& at, std::uint64_t offset = kNoOffset);
 
+/// `return broken(Fault::…);` from a function that does not know where it reads.
+inline tl::unexpected<Error> broken(Fault fault) {
+  return tl::unexpected(error_of({fault, {}, {}}));
+}
+
 /// Takes the faults that a decoder meets.
 class FaultSink {
  public:

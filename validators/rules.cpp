@@ -13,7 +13,8 @@ constexpr Severity kError = Severity::error;
 constexpr Severity kWarning = Severity::warning;
 
 // The last three digits of a code are those of its clause; the first says on which page that is:
-// 0 answers other than "corrupt", 1 container.md, 2 model.md, 3 strips.md, 4 vsplit.md, 5 xml.md.
+// 0 answers other than "corrupt", 1 container.md, 2 model.md, 3 strips.md, 4 vsplit.md, 5 xml.md,
+// 6 compact.md.
 constexpr Rule kRules[] = {
     {"PS0001", kError, "D-010", Stage::file, "The file goes on to its end.",
      noticed<Fault::truncated>, Verdict::truncated},
@@ -52,7 +53,7 @@ constexpr Rule kRules[] = {
     {"PS1015", kError, "C-015", Stage::file,
      "There are as many PCKT chunks as PSHD declares packets.", noticed<Fault::packet_chunks>},
     {"PS1016", kError, "C-016", Stage::file,
-     "fACE, oRDP and dGST stand mesh by mesh in that order, iMGE by image, each once.",
+     "FINE, fACE, oRDP and dGST stand mesh by mesh in that order, iMGE by image, each once.",
      noticed<Fault::tail_order>},
     {"PS1017", kError, "C-017", Stage::file, "PEND is the end of the file.",
      noticed<Fault::bytes_after_end>},
@@ -127,6 +128,14 @@ constexpr Rule kRules[] = {
     {"PS1066", kError, "C-066", Stage::file,
      "The bits between a packed array and what follows it are zero.",
      noticed<Fault::packed_padding>},
+    {"PS1067", kError, "C-067", Stage::file, "The mesh of a FINE is below the number of meshes.",
+     noticed<Fault::fine_mesh>},
+    {"PS1068", kError, "C-068", Stage::file,
+     "A mesh has a FINE chunk when its cells leave bits, and only then.",
+     noticed<Fault::fine_needed>},
+    {"PS1069", kError, "C-069", Stage::file,
+     "A FINE chunk holds the bits below the cells of its mesh, and zeros behind them.",
+     noticed<Fault::fine_length>},
     {"PS1070", kError, "C-070", Stage::file,
      "An iMGE brings data of an image that mTRL says is embedded.", noticed<Fault::image_data>},
     {"PS1071", kError, "C-071", Stage::model, "Each embedded image has an iMGE chunk.",
@@ -320,6 +329,30 @@ constexpr Rule kRules[] = {
     {"PS5030", kError, "X-030", Stage::file, "A backslash in a string stands for something.",
      noticed<Fault::xml_backslash>},
     {"PS5031", kError, "X-031", Stage::file, "Base64 is whole.", noticed<Fault::xml_base64>},
+    {"PS6001", kError, "K-001", Stage::file,
+     "A mesh of the compact profile has at most 1024 components of wedge attributes, and is what "
+     "C-052 and M-061 demand.",
+     noticed<Fault::compact_mesh>},
+    {"PS6002", kError, "K-002", Stage::file, "The cells of an attribute fit its type.",
+     noticed<Fault::compact_cells>},
+    {"PS6003", kError, "K-003", Stage::file,
+     "The numbers of a head are in their shortest form and not too large.",
+     noticed<Fault::compact_number>},
+    {"PS6004", kError, "K-004", Stage::file, "A run of codes ends with its last one.",
+     noticed<Fault::compact_run>},
+    {"PS6005", kError, "K-005", Stage::file,
+     "A base names what is there, three vertices a triangle and one a wedge.",
+     noticed<Fault::compact_base>},
+    {"PS6006", kError, "K-006", Stage::file,
+     "A packet brings what it says, and no mesh more than MESH says.",
+     noticed<Fault::compact_counts>},
+    {"PS6007", kError, "K-007", Stage::file, "The vertices of a split lie in cells.",
+     noticed<Fault::compact_step>},
+    {"PS6008", kError, "K-008", Stage::file, "A wedge is one of its vertex.",
+     noticed<Fault::compact_wedge>},
+    {"PS6009", kError, "K-009", Stage::file,
+     "The third vertex of a new face is there, and none of the other two.",
+     noticed<Fault::compact_face>},
 };
 
 static_assert(std::ranges::adjacent_find(kRules, std::ranges::greater_equal{}, &Rule::code) ==
@@ -332,6 +365,8 @@ std::string_view page_of(std::string_view clause) {
       return "model.md";
     case 'S':
       return "strips.md";
+    case 'K':
+      return "compact.md";
     case 'V':
       return "vsplit.md";
     case 'X':

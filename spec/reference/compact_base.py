@@ -11,6 +11,16 @@ from run import BitModel, Models, NumberModel, Run, SymbolModel, length
 AXES = range(3)
 
 
+def next_of(elements):
+    """The number of the first that has not come yet, or past the last."""
+    return elements.index(None) if None in elements else len(elements)
+
+
+def bounded(cell):
+    """The cell nearest to a number."""
+    return max(-BOUND + 1, min(BOUND - 1, cell))
+
+
 @dataclasses.dataclass
 class Corner:
     vertex: int
@@ -39,9 +49,10 @@ class BaseRun:
         self.near, self.far = Models(NumberModel), Models(NumberModel)
         self.component = Models(NumberModel)
         self.queue = collections.deque()
-        self.position = []
-        self.vertex_of = []
-        self.wedges = []  # for each the cells of all components
+        self.position = [None] * mesh.base_vertices  # None: has not come yet
+        self.vertex_of = [None] * mesh.base_wedges
+        self.wedges = [None] * mesh.base_wedges  # for each the cells of all components
+        self.last_wedge = None
         self.map = []
         self.triangle_group = []
         self.last_position = [0, 0, 0]
@@ -75,27 +86,25 @@ class BaseRun:
         first = self.read_corner(v, gate.end.wedge)
         second = self.read_corner(u, gate.start.wedge)
         symbol = self.third.read(self.run)
+        likely = self.likely(u, v)
         if symbol == 0:
-            vertex = len(self.position)
-        elif symbol == 15:
-            vertex = self.run.raw(length(self.mesh.base_vertices))
-            require(vertex < len(self.position), "K-005")
-        else:
-            likely = self.likely(u, v)
-            require(symbol <= len(likely), "K-005")
+            vertex = next_of(self.position)
+        elif symbol <= len(likely):
             vertex = likely[symbol - 1]
+        else:
+            vertex = self.run.raw(length(self.mesh.base_vertices))
         return first, second, self.read_third_corner(vertex, gate, first, second)
 
     def read_at_no_gate(self):
         corners = []
         for _ in range(3):
             if self.next.read(self.run):
-                vertex = len(self.position)
+                vertex = next_of(self.position)
             else:
                 vertex = self.run.raw(length(self.mesh.base_vertices))
-                require(vertex < len(self.position), "K-005")
-            if vertex == len(self.position):
-                self.read_position(self.far, self.last_position)
+            require(vertex < self.mesh.base_vertices, "K-005")
+            if self.position[vertex] is None:
+                self.read_position(vertex, self.far, self.last_position)
             corners.append(self.read_corner(vertex, self.last_shown.get(vertex)))
         return corners
 
@@ -112,29 +121,29 @@ class BaseRun:
         return out[:14]
 
     def read_third_corner(self, vertex, gate, first, second):
-        if vertex == len(self.position):
+        require(vertex < self.mesh.base_vertices, "K-005")
+        if self.position[vertex] is None:
             start, end, third = (self.position[corner.vertex]
                                  for corner in (gate.start, gate.end, gate.third))
-            self.read_position(self.near, [start[k] + end[k] - third[k] for k in AXES])
+            self.read_position(vertex, self.near, [start[k] + end[k] - third[k] for k in AXES])
         against = [a + b - c for a, b, c in zip(*(self.wedges[corner.wedge]
                                                   for corner in (first, second, gate.third)))]
         return self.read_corner(vertex, self.last_shown.get(vertex), against)
 
-    def read_position(self, models, against):
-        """A new vertex, the next one."""
-        require(len(self.position) < self.mesh.base_vertices, "K-005")
-        position = tuple(against[k] + models[k].read(self.run) for k in AXES)
-        require(all(abs(c) < BOUND for c in position), "K-005")
-        self.position.append(position)
+    def read_position(self, vertex, models, against):
+        """A new vertex."""
+        position = tuple(bounded(against[k] + models[k].read(self.run)) for k in AXES)
+        self.position[vertex] = position
         self.last_position = position
 
     def read_corner(self, vertex, usual, against=None):
         """*A corner*, but for its position: its wedge, whose attributes follow when it is new."""
         wedge = self.read_wedge(vertex, usual)
-        if wedge == len(self.wedges):
+        require(wedge < self.mesh.base_wedges, "K-005")
+        if self.wedges[wedge] is None:
             if against is None and usual is not None:
                 against = self.wedges[usual]
-            self.read_new_wedge(vertex, against)
+            self.read_new_wedge(wedge, vertex, against)
         require(self.vertex_of[wedge] == vertex, "K-005")
         self.last_shown[vertex] = wedge
         return Corner(vertex, wedge)
@@ -145,20 +154,17 @@ class BaseRun:
         if usual is not None and self.usual.read(self.run):
             return usual
         if self.next_wedge.read(self.run):
-            return len(self.wedges)
-        wedge = self.run.raw(length(self.mesh.base_wedges))
-        require(wedge < len(self.wedges), "K-005")
-        return wedge
+            return next_of(self.wedges)
+        return self.run.raw(length(self.mesh.base_wedges))
 
-    def read_new_wedge(self, vertex, against):
+    def read_new_wedge(self, wedge, vertex, against):
         """against: a cell for each component, or None for those of the wedge coded last."""
-        require(len(self.wedges) < self.mesh.base_wedges, "K-005")
         if against is None:
-            against = self.wedges[-1] if self.wedges else [0] * self.components
-        cells = tuple(against[k] + self.component[k].read(self.run) for k in range(self.components))
-        require(all(abs(c) < BOUND for c in cells), "K-005")
-        self.vertex_of.append(vertex)
-        self.wedges.append(cells)
+            against = self.last_wedge or [0] * self.components
+        cells = tuple(bounded(against[k] + self.component[k].read(self.run))
+                      for k in range(self.components))
+        self.vertex_of[wedge] = vertex
+        self.wedges[wedge] = self.last_wedge = cells
 
     def read_group(self):
         """*The group*."""
@@ -175,14 +181,14 @@ class BaseRun:
 
     def read_rest(self):
         """Vertices and wedges that no triangle has."""
-        while len(self.position) < self.mesh.base_vertices:
-            self.read_position(self.far, self.last_position)
-        while len(self.wedges) < self.mesh.base_wedges:
-            vertex = len(self.wedges)
+        while None in self.position:
+            self.read_position(next_of(self.position), self.far, self.last_position)
+        while None in self.wedges:
+            wedge = vertex = next_of(self.wedges)
             if not self.mesh.single_wedges:
                 vertex = self.run.raw(length(self.mesh.base_vertices))
                 require(vertex < self.mesh.base_vertices, "K-005")
-            self.read_new_wedge(vertex, None)
+            self.read_new_wedge(wedge, vertex, None)
         self.run.end()
 
 

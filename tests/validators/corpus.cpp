@@ -14,15 +14,19 @@ std::vector<CorpusFile> valid_corpus() {
     const char* name;
     ProgressiveStrips strips;
   };
-  const Sample samples[] = {
-      {"roof", roof()},       {"symbols", symbols()}, {"faces", numbered_faces()},
-      {"seam", seam()},       {"scene", scene()},     {"growing", growing()},
-      {"compact", compact()}, {"empty", empty()},     {"empty_mesh", empty_mesh()}};
+  const Sample samples[] = {{"roof", roof()},
+                            {"symbols", symbols()},
+                            {"faces", numbered_faces()},
+                            {"seam", seam()},
+                            {"scene", scene()},
+                            {"growing", growing()},
+                            {"compact", compact()},
+                            {"batches", batches()},
+                            {"empty", empty()},
+                            {"empty_mesh", empty_mesh()}};
   std::vector<CorpusFile> out;
   for (const Sample& sample : samples) {
-    // The reference decoder reads the binary files, of the plain profile only.
-    if (sample.strips.profile == Profile::plain)
-      out.push_back({std::string(sample.name) + ".pstrip", written(sample.strips)});
+    out.push_back({std::string(sample.name) + ".pstrip", written(sample.strips)});
     out.push_back({std::string(sample.name) + ".pstripx", write_xml(sample.strips)});
   }
   return out;
@@ -30,7 +34,7 @@ std::vector<CorpusFile> valid_corpus() {
 
 std::vector<CorpusFile> invalid_corpus() {
   std::vector<CorpusFile> out;
-  for (const std::span<const Case> cases : {kContainerCases, kModelCases, kXmlCases})
+  for (const std::span<const Case> cases : {kContainerCases, kModelCases, kXmlCases, kCompactCases})
     for (const Case& c : cases) out.push_back({c.name, c.make()});
   return out;
 }

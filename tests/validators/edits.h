@@ -64,6 +64,6 @@ struct Case {
   const char* name;
   Bytes (*make)();
 };
-extern const std::span<const Case> kContainerCases, kModelCases, kXmlCases;
+extern const std::span<const Case> kContainerCases, kModelCases, kXmlCases, kCompactCases;
 
 }  // namespace pstrips::test

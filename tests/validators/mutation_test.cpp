@@ -10,6 +10,7 @@
 #include "tests/support/progressive.h"
 #include "tests/validators/chunk_file.h"
 #include "tests/validators/corpus.h"
+#include "tests/validators/samples.h"
 #include "validators/validate.h"
 
 namespace pstrips {
@@ -127,6 +128,18 @@ TEST(Mutations, OfMapsOfTrianglesNeverHarm) {
       SCOPED_TRACE(seed * 100 + static_cast<std::uint32_t>(i));
       for (const Bytes& damaged : {damage.inside(binary), damage(xml)})
         expect_agreement(damaged, validate(damaged));
+    }
+  }
+}
+
+TEST(Mutations, OfBatchesNeverHarm) {
+  Damage damage(5);
+  for (const ProgressiveStrips& strips : {test::batches(), test::compact()}) {
+    const Bytes file = write_binary(strips).value();
+    for (int i = 0; i < 4000; ++i) {
+      SCOPED_TRACE(i);
+      const Bytes damaged = damage.inside(file);
+      expect_agreement(damaged, validate(damaged));
     }
   }
 }

@@ -33,6 +33,10 @@ ProgressiveStrips growing();
 /// Of the compact profile: the same roof and split, with single wedges and on a grid, as batches.
 ProgressiveStrips compact();
 
+/// A file of the compact profile: one mesh with a seam in batches of splits, of which FINE brings
+/// the last bits.
+ProgressiveStrips batches();
+
 /// The seam without faces, order and digest.
 ProgressiveStrips bare_seam();
 

@@ -331,13 +331,13 @@ bool PayloadDecoder::read_foreign(ReadIo& io) {
 
 bool PayloadDecoder::read_end(ReadIo& io) {
   if (io.payload_bytes() != 0 && !goes_on(Fault::end_payload)) return false;
+  for (Index m = 0; m < strips_.meshes.size(); ++m)
+    if (geometry_->needs_fine(m) && !std::ranges::binary_search(fine_, m))
+      return refuse(Fault::fine_needed);
   if (checks_model()) {
     if (!holds(fault_of_ends(reached_, strips_.meshes))) return false;
     for (std::size_t m = 0; m < strips_.meshes.size(); ++m) {
       const ProgressiveMesh& mesh = strips_.meshes[m];
-      if (geometry_->needs_fine(static_cast<Index>(m)) &&
-          !std::ranges::binary_search(fine_, static_cast<Index>(m)))
-        return refuse(Fault::fine_needed);
       if (face_count(mesh) != counts_[m].faces) return refuse(Fault::face_count);
       if (mesh.faces.attributes.size() != mesh.face_attribute_formats.size())
         return refuse(Fault::faces_missing);

@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-#include "core/result.h"
+#include "core/fault_list.h"
 #include "core/star_mesh.h"
 #include "formats/pstrip/payload/compact/split_models.h"
 
@@ -76,7 +76,7 @@ class BaseCode {
       if (auto ok = code_triangle(t); !ok) return ok;
       // What is read past the end would go on for as long as the counts say.
       if constexpr (Coder::kReads)
-        if (coder_.overrun()) return fail(ErrorCode::corrupt, "base ends early");
+        if (coder_.overrun()) return broken(Fault::compact_run);
     }
     for (Index v = 0; v < counts_.vertices; ++v)
       if (!is_known_[v]) code_position(v, models_.far, last_position_);
@@ -84,7 +84,7 @@ class BaseCode {
       if (is_known_wedge_[w]) continue;
       const Index v =
           counts_.single_wedges ? w : coder_.raw(mesh_.wedge_vertex[w], bits_for(counts_.vertices));
-      if (v >= counts_.vertices) return fail(ErrorCode::corrupt, "wedge of no vertex");
+      if (v >= counts_.vertices) return broken(Fault::compact_base);
       code_new_wedge(w, v, last_wedge_ == kNone ? Row{} : row_of(last_wedge_));
     }
     return {};
@@ -106,7 +106,7 @@ class BaseCode {
 
   Result<void> code_triangle(Index t) {
     const Gate* const gate = code_place(t);
-    if (gate == nullptr && !at_none_) return fail(ErrorCode::corrupt, "base has no such gate");
+    if (gate == nullptr && !at_none_) return broken(Fault::compact_base);
     std::array<Index, 3> v{};
     Gate at{};
     if (gate != nullptr) at = *gate;
@@ -116,11 +116,9 @@ class BaseCode {
         v[k] = code_vertex(wanted);
       else
         v[k] = k == 0 ? at.to : k == 1 ? at.from : code_third(wanted);
-      if (v[k] >= counts_.vertices)
-        return fail(ErrorCode::corrupt, "triangle of the base names a vertex past the end");
+      if (v[k] >= counts_.vertices) return broken(Fault::compact_base);
       for (unsigned i = 0; i < k; ++i)
-        if (v[i] == v[k])
-          return fail(ErrorCode::corrupt, "triangle of the base names a vertex twice");
+        if (v[i] == v[k]) return broken(Fault::compact_base);
       if (auto ok = code_corner(t, k, v[k], gate != nullptr ? &at : nullptr); !ok) return ok;
     }
     code_group(t);
@@ -260,11 +258,11 @@ class BaseCode {
       wedge = next_wedge_;
     else
       wedge = coder_.raw(wedge, bits_for(counts_.wedges));
-    if (wedge >= counts_.wedges) return fail(ErrorCode::corrupt, "base names a wedge past the end");
+    if (wedge >= counts_.wedges) return broken(Fault::compact_base);
     if (!is_known_wedge_[wedge])
       code_new_wedge(wedge, v, predicted);
     else if (mesh_.wedge_vertex[wedge] != v)
-      return fail(ErrorCode::corrupt, "wedge of the base is at two vertices");
+      return broken(Fault::compact_base);
     last_wedge_of_[v] = wedge;
     return {};
   }

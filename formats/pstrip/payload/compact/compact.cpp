@@ -125,26 +125,26 @@ class CompactReader final : public GeometryReader {
 
   void read_head(ReadIo& io, BaseHead& head) override {
     for (Index* const number : {&head.mesh, &head.vertices, &head.wedges, &head.map_entries})
-      *number = take_index(io.in());
+      *number = take_index(io);
   }
 
   void read_head(ReadIo& io, PacketHead& head, std::span<const ProgressiveMesh> meshes) override {
-    head.mesh = take_index(io.in());
-    head.first_vsplit = take_index(io.in());
-    const std::uint64_t vsplits = take_varint(io.in(), 33);
+    head.mesh = take_index(io);
+    head.first_vsplit = take_index(io);
+    const std::uint64_t vsplits = take_varint(io, 33);
     head.vsplits = static_cast<Index>(vsplits >> 1);
     kind_ = static_cast<PacketKind>(vsplits & 1);
     if (head.mesh < meshes.size() && meshes[head.mesh].single_wedges) head.wedges = head.vsplits;
   }
 
   bool read(ReadIo& io, const BaseHead& head, ProgressiveMesh& mesh) override {
-    if (auto ok = read_base(io, head, mesh); !ok) return refuse(io, ok.error());
+    if (auto ok = read_base(io, head, mesh); !ok) return io.refuse(ok.error().fault);
     return io.finish();
   }
 
   bool read(ReadIo& io, PacketHead& head, ProgressiveMesh& mesh,
             const PacketStart& start) override {
-    if (auto ok = read_packet(io, head, mesh, start); !ok) return refuse(io, ok.error());
+    if (auto ok = read_packet(io, head, mesh, start); !ok) return io.refuse(ok.error().fault);
     return io.finish();
   }
 
@@ -163,11 +163,6 @@ class CompactReader final : public GeometryReader {
   }
 
  private:
-  static bool refuse(ReadIo& io, const Error& error) {
-    io.in().fail(error.code, error.message);
-    return io.finish();
-  }
-
   Result<void> read_base(ReadIo& io, const BaseHead& head, ProgressiveMesh& mesh);
   Result<MeshCells> read_cells(ReadIo& io, const ProgressiveMesh& mesh);
   Result<void> grant(const ProgressiveMesh& mesh);
@@ -187,7 +182,7 @@ Result<void> CompactReader::grant(const ProgressiveMesh& mesh) {
   const std::uint64_t entries = full_map_entries(mesh);
   if (mesh.vertices > vertices_left_ || mesh.wedges > wedges_left_ || entries > entries_left_ ||
       mesh.base_vertices > mesh.vertices || mesh.base_wedges > mesh.wedges)
-    return fail(ErrorCode::corrupt, "mesh is larger than the file");
+    return broken(Fault::compact_counts);
   vertices_left_ -= mesh.vertices;
   wedges_left_ -= mesh.wedges;
   entries_left_ -= entries;
@@ -195,15 +190,15 @@ Result<void> CompactReader::grant(const ProgressiveMesh& mesh) {
 }
 
 Result<MeshCells> CompactReader::read_cells(ReadIo& io, const ProgressiveMesh& mesh) {
-  if (mesh.encoding != MapEncoding::triangles || mesh.position.count != 3 || mesh.groups.empty() ||
+  if (mesh.groups.empty()) return broken(Fault::group_missing);
+  if (mesh.encoding != MapEncoding::triangles || mesh.position.count != 3 ||
       columns_of(mesh) > kMaxColumns || !PositionCells::is_valid(mesh.grid, mesh.position.type))
-    return fail(ErrorCode::corrupt, "mesh is none of the compact profile");
+    return broken(Fault::compact_mesh);
   MeshCells cells{PositionCells(mesh.grid, mesh.position.type), {}};
   for (const Attribute& a : mesh.wedge_attributes) {
-    const std::uint64_t packed = take_varint(io.in(), kPackedCellsBits);
+    const std::uint64_t packed = take_varint(io, kPackedCellsBits);
     const int exponent = exponent_of_packed(packed);
-    if (!Cells::is_valid(a.type, exponent))
-      return fail(ErrorCode::corrupt, "cells do not fit the type of the attribute");
+    if (!Cells::is_valid(a.type, exponent)) return broken(Fault::compact_cells);
     cells.attributes.emplace_back(a.type, exponent, (packed & 1) != 0);
   }
   return cells;
@@ -214,12 +209,12 @@ Result<void> CompactReader::read_base(ReadIo& io, const BaseHead& head, Progress
   Result<MeshCells> cells = read_cells(io, mesh);
   if (!cells) return tl::unexpected<Error>(cells.error());
   if (head.map_entries % 3 != 0 || head.map_entries > full_map_entries(mesh))
-    return fail(ErrorCode::corrupt, "base has part of a triangle, or too many");
+    return broken(Fault::base_counts);
   RansReader coder(io.in().take(io.in().remaining()));
   BaseMesh base;
   const BaseCounts counts = base_counts_of(mesh, head.map_entries);
   if (auto ok = BaseCode<RansReader>(coder, counts, base).run(); !ok) return ok;
-  if (!coder.complete()) return fail(ErrorCode::corrupt, "base does not end with its bytes");
+  if (!coder.complete()) return broken(Fault::compact_run);
 
   const CellsReader numbers(*cells);
   for (const GridPoint at : base.positions)
@@ -249,21 +244,18 @@ Result<void> CompactReader::read_records(ReadIo& io, Index vsplits, MeshState& s
   const std::size_t before = mesh.vsplits.size();
   if (auto ok = kind_ == PacketKind::batch ? code.run_batch() : code.run_isolated(vsplits); !ok)
     return ok;
-  if (!coder.complete()) return fail(ErrorCode::corrupt, "records do not end with their bytes");
-  if (mesh.vsplits.size() - before != vsplits)
-    return fail(ErrorCode::corrupt, "packet has not as many records as it says");
+  if (!coder.complete()) return broken(Fault::compact_run);
+  if (mesh.vsplits.size() - before != vsplits) return broken(Fault::compact_counts);
   return {};
 }
 
 Result<void> CompactReader::read_packet(ReadIo& io, PacketHead& head, ProgressiveMesh& mesh,
                                         const PacketStart& start) {
-  if (head.mesh >= meshes_.size()) return fail(ErrorCode::corrupt, "mesh has no base yet");
+  if (head.mesh >= meshes_.size()) return broken(Fault::packet_mesh);
   Reading& reading = meshes_[head.mesh];
   reading.visited += start.vertices;
-  if (is_too_much_work(reading.visited, mesh.vertices))
-    return fail(ErrorCode::over_limit, "more packets than the vertices are worth");
-  if (head.vsplits > mesh.vertices - start.vertices)
-    return fail(ErrorCode::corrupt, "more vertices than the mesh has");
+  if (is_too_much_work(reading.visited, mesh.vertices)) return broken(Fault::too_much_work);
+  if (head.vsplits > mesh.vertices - start.vertices) return broken(Fault::compact_counts);
   MeshState& state = state_of(reading, mesh);
   const std::size_t first_cell = state.wedge_cells.size();
   if (auto ok = read_records(io, head.vsplits, state, mesh); !ok) return ok;

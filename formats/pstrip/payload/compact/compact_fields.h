@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "core/bytes.h"
 #include "formats/pstrip/payload/compact/base_code.h"
 #include "formats/pstrip/payload/compact/mesh_state.h"
+#include "formats/pstrip/payload/io.h"
 
 // For formats/pstrip/payload/compact: what stands before the run of codes in a BASE and a PCKT.
 // [spec/compact.md §4]
@@ -19,20 +19,20 @@ inline void put_varint(Bytes& out, std::uint64_t number) {
 }
 
 /// A number of at most `bits` bits, in its shortest form.
-inline std::uint64_t take_varint(ByteReader& in, unsigned bits) {
+inline std::uint64_t take_varint(layout::ReadIo& io, unsigned bits) {
   std::uint64_t number = 0;
   for (unsigned at = 0; at < bits; at += 7) {
-    const std::uint8_t byte = in.u8();
+    const std::uint8_t byte = io.in().u8();
     number |= std::uint64_t{byte & 0x7fu} << at;
     if (byte >= 0x80) continue;
     if ((byte == 0 && at > 0) || number >> bits != 0) break;
     return number;
   }
-  in.fail(ErrorCode::corrupt, "number is not in its shortest form");
+  io.refuse(Fault::compact_number);
   return 0;
 }
 
-inline Index take_index(ByteReader& in) { return static_cast<Index>(take_varint(in, 32)); }
+inline Index take_index(layout::ReadIo& io) { return static_cast<Index>(take_varint(io, 32)); }
 
 /// What a PCKT holds.
 enum class PacketKind : std::uint8_t {
@@ -53,7 +53,7 @@ constexpr int exponent_of_packed(std::uint64_t packed) {
 inline constexpr unsigned kPackedCellsBits = 14;
 
 /// As many as a mesh may have, so that what is learned of each stays small.
-inline constexpr unsigned kMaxColumns = 256;
+inline constexpr unsigned kMaxColumns = 1024;
 
 inline unsigned columns_of(const ProgressiveMesh& mesh) {
   unsigned columns = 0;

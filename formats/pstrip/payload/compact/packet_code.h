@@ -4,7 +4,7 @@
 #include <bit>
 #include <vector>
 
-#include "core/result.h"
+#include "core/fault_list.h"
 #include "formats/pstrip/payload/compact/mesh_state.h"
 #include "formats/pstrip/payload/compact/split_batch.h"
 #include "formats/pstrip/payload/compact/wedge_code.h"
@@ -131,13 +131,11 @@ class PacketCode {
   }
 
  private:
-  static tl::unexpected<Error> too_many() {
-    return fail(ErrorCode::corrupt, "more vertices or wedges than the mesh has");
-  }
+  static tl::unexpected<Error> too_many() { return broken(Fault::compact_counts); }
 
   Result<void> code_record(Index parent, Index added) {
     if constexpr (Coder::kReads)
-      if (coder_.overrun()) return fail(ErrorCode::corrupt, "records end early");
+      if (coder_.overrun()) return broken(Fault::compact_run);
     SplitRecord& record = records_.record();
     if constexpr (Coder::kReads) record.clear();
     const StarMesh& mesh = state_.mesh();
@@ -199,13 +197,13 @@ class PacketCode {
 
   Result<void> code_isolated(GridPoint wanted) {
     if constexpr (Coder::kReads)
-      if (coder_.overrun()) return fail(ErrorCode::corrupt, "records end early");
+      if (coder_.overrun()) return broken(Fault::compact_run);
     GridPoint& at = state_.last_isolated;
     const auto coded = [&](unsigned k, std::int32_t from, std::int32_t to) {
       return from + state_.models.isolated_position[k].code(coder_, Coder::kReads ? 0 : to - from);
     };
     at = {coded(0, at.x, wanted.x), coded(1, at.y, wanted.y), coded(2, at.z, wanted.z)};
-    if (!is_on_grid(at)) return fail(ErrorCode::corrupt, "vertex leaves the grid");
+    if (!is_on_grid(at)) return broken(Fault::compact_step);
     SplitRecord& record = records_.record();
     if (state_.single_wedges)
       record.new_wedges = 1;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/result.h"
+#include "core/fault_list.h"
 #include "formats/pstrip/payload/compact/split_code.h"
 
 // For formats/pstrip/payload/compact: a batch, the splits of one packet. [split_code.h]
@@ -29,7 +29,7 @@ Result<void> code_any(Coder& coder, SplitState& state, Index vertex, std::size_t
   std::uint32_t faces = coder.symbol(models.faces, std::min(wanted, 15u));
   if (faces == 15) faces += coder.raw(wanted - 15, 28);
   if (state.mesh.face_count() + std::uint64_t{faces} > max_faces)
-    return fail(ErrorCode::corrupt, "more faces than the mesh has");
+    return broken(Fault::compact_counts);
   split.third.resize(faces);
   split.new_first.resize(faces);
   const auto near_bits = static_cast<unsigned>(std::bit_width(neighbours.size()));
@@ -42,7 +42,7 @@ Result<void> code_any(Coder& coder, SplitState& state, Index vertex, std::size_t
     split.third[i] =
         coded < neighbours.size() ? neighbours[coded] : coder.raw(split.third[i], any_bits);
     if (split.third[i] >= state.mesh.vertex_count() || split.third[i] == vertex)
-      return fail(ErrorCode::corrupt, "third vertex of a new face is not there");
+      return broken(Fault::compact_face);
   }
   split.step.x = models.free_step[0].code(coder, split.step.x);
   split.step.y = models.free_step[1].code(coder, split.step.y);
@@ -61,12 +61,11 @@ inline Result<Index> apply(SplitState& state, Index vertex, const VertexRing& ri
   constexpr std::int32_t kLargest = 2 * kMaxGrid;
   const GridPoint step = split.step;
   for (const std::int32_t x : {step.x, step.y, step.z})
-    if (x > kLargest || x < -kLargest) return fail(ErrorCode::corrupt, "vertex leaves the grid");
+    if (x > kLargest || x < -kLargest) return broken(Fault::compact_step);
   GridPoint kept = state.position[vertex];
   if (state.placement == Placement::optimal) kept = kept - halved(step);
   const GridPoint at = kept + step;
-  if (!is_on_grid(kept) || !is_on_grid(at))
-    return fail(ErrorCode::corrupt, "vertex leaves the grid");
+  if (!is_on_grid(kept) || !is_on_grid(at)) return broken(Fault::compact_step);
   state.position[vertex] = kept;
   state.extend(at);
   if (split.chord) return state.mesh.split(vertex, ring, split.from, split.to);
@@ -115,8 +114,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
                    [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)];
     state.is_new[vertex] = 0;
     if (!coder.bit(splits, wanted != nullptr)) continue;
-    if (state.mesh.vertex_count() >= limits.vertices)
-      return fail(ErrorCode::corrupt, "more vertices than the mesh has");
+    if (state.mesh.vertex_count() >= limits.vertices) return broken(Fault::compact_counts);
     if (wanted != nullptr) split = *wanted;
     state.mesh.ring_of(vertex, ring);
     const RingGeometry geometry(state, vertex, ring);
@@ -124,7 +122,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     if (split.chord) {
       code_step(coder, state, vertex, ring, geometry, split);
       if (state.mesh.face_count() + std::size_t{2} > limits.faces + (ring.open ? 1u : 0u))
-        return fail(ErrorCode::corrupt, "more faces than the mesh has");
+        return broken(Fault::compact_counts);
     } else if (const auto ok = code_any(coder, state, vertex, limits.faces, split); !ok) {
       return ok;
     }

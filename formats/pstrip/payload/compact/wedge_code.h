@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/result.h"
+#include "core/fault_list.h"
 #include "formats/pstrip/payload/compact/mesh_state.h"
 
 // For formats/pstrip/payload/compact: the wedges, groups and attributes that a split brings, once
@@ -101,12 +101,8 @@ class WedgeCode {
     friend bool operator==(const FaceWedges&, const FaceWedges&) = default;
   };
 
-  static tl::unexpected<Error> too_many() {
-    return fail(ErrorCode::corrupt, "more wedges than the mesh has");
-  }
-  static tl::unexpected<Error> misplaced() {
-    return fail(ErrorCode::corrupt, "wedge is not one of its vertex");
-  }
+  static tl::unexpected<Error> too_many() { return broken(Fault::compact_counts); }
+  static tl::unexpected<Error> misplaced() { return broken(Fault::compact_wedge); }
   Index first_new() const { return state_.wedges; }
   Index coarse_wedge(std::size_t i) const { return state_.corner_wedge[record_.moved[i]]; }
   Source* source_of(Index wedge) {
