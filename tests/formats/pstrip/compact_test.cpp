@@ -253,7 +253,7 @@ TEST(Compact, WhatIsNoBatchIsNotWritten) {
   const auto refuses = [&](auto&& change) {
     ProgressiveStrips bad = good;
     change(bad);
-    const Result<Bytes> file = write_binary(bad);
+    const Result<Bytes> file = write_binary_unchecked(bad);
     return !file && file.error().code == ErrorCode::bad_argument && !file.error().path.empty();
   };
   EXPECT_FALSE(refuses([](ProgressiveStrips&) {}));
