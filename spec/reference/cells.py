@@ -68,10 +68,8 @@ class IntegerCells:
         bits = self.left(c)
         if rest is None:
             rest = 1 << (bits - 1) if bits else 0
-        try:
-            return struct.pack("<" + self.code, (c << self.e) + rest)
-        except struct.error:
-            require(False, "K-002")
+        size = struct.calcsize(self.code)
+        return (((c << self.e) + rest) % (1 << 8 * size)).to_bytes(size, "little")
 
 
 class GridPoints:
