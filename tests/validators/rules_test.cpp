@@ -32,8 +32,8 @@ std::map<std::string, Clause> clauses() {
   constexpr std::string_view kStart = "- [";
   constexpr std::size_t kIdBytes = 5;
   std::map<std::string, Clause> out;
-  for (const char* name : {"model.md", "strips.md", "vsplit.md", "container.md", "xml.md",
-                           "compact.md"}) {
+  for (const char* name :
+       {"model.md", "strips.md", "vsplit.md", "container.md", "xml.md", "compact.md"}) {
     std::istringstream lines(page(name));
     Clause* current = nullptr;
     for (std::string line; std::getline(lines, line);) {

@@ -12,6 +12,21 @@ void set_digests(ProgressiveStrips& strips) {
   }
 }
 
+namespace {
+
+/// One record, then the two others.
+ProgressiveStrips in_two_packets(ProgressiveMesh mesh) {
+  ProgressiveStrips strips;
+  strips.meshes.push_back(std::move(mesh));
+  strips.bases = {{.error = 0.5f, .one_sided_error = 0.125f}};
+  strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
+                    {.first_vsplit = 1, .vsplits = 2}};
+  recount_levels(strips);
+  return strips;
+}
+
+}  // namespace
+
 ProgressiveStrips roof() {
   ProgressiveMesh mesh;
   mesh.name = "roof";
@@ -28,13 +43,8 @@ ProgressiveStrips roof() {
   mesh.vertices = mesh.wedges = 7;
   mesh.triangles = 4;
   mesh.strips = 2;
-  ProgressiveStrips strips;
+  ProgressiveStrips strips = in_two_packets(std::move(mesh));
   strips.generator = "corpus";
-  strips.meshes.push_back(std::move(mesh));
-  strips.bases = {{.error = 0.5f, .one_sided_error = 0.125f}};
-  strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
-                    {.first_vsplit = 1, .vsplits = 2}};
-  recount_levels(strips);
   return strips;
 }
 
@@ -113,13 +123,7 @@ ProgressiveStrips growing() {
   mesh.vertices = 7;
   mesh.wedges = 8;
   mesh.triangles = mesh.strips = 5;
-  ProgressiveStrips strips;
-  strips.meshes.push_back(std::move(mesh));
-  strips.bases = {{.error = 0.5f, .one_sided_error = 0.125f}};
-  strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
-                    {.first_vsplit = 1, .vsplits = 2}};
-  recount_levels(strips);
-  return strips;
+  return in_two_packets(std::move(mesh));
 }
 
 ProgressiveStrips compact() {

@@ -115,6 +115,14 @@ TEST(Check, NamesWhatIsWrong) {
   }
 }
 
+/// The fault of strips whose first mesh is spoilt.
+template <class Spoil>
+Fault fault_when(ProgressiveStrips strips, Spoil&& spoil) {
+  spoil(strips.meshes[0]);
+  const Result<void> result = check(strips);
+  return result ? Fault::none : result.error().fault;
+}
+
 TEST(Check, JudgesMeshesByTheProfile) {
   ProgressiveStrips good = test::random_progressive(3, {.encoding = MapEncoding::triangles});
   good.profile = Profile::compact;
@@ -122,12 +130,7 @@ TEST(Check, JudgesMeshesByTheProfile) {
   ASSERT_EQ(mesh.position.type, ComponentType::f32);
   mesh.grid = {.step = 0.25f};
   EXPECT_TRUE(check(good));
-  const auto fault_of = [&](auto spoil) {
-    ProgressiveStrips bad = good;
-    spoil(bad.meshes[0]);
-    const Result<void> result = check(bad);
-    return result ? Fault::none : result.error().fault;
-  };
+  const auto fault_of = [&](auto spoil) { return fault_when(good, spoil); };
   using M = ProgressiveMesh;
   EXPECT_EQ(fault_of([](M& m) { m.encoding = MapEncoding::naive; }), Fault::profile_encoding);
   EXPECT_EQ(fault_of([](M& m) { m.grid.step = 0; }), Fault::position_grid);
@@ -142,17 +145,11 @@ TEST(Check, ChangesOfMapsOfTrianglesStayInRange) {
   const ProgressiveMesh& mesh = good.meshes[0];
   ASSERT_GE(mesh.new_corners.size(), 9u);
   ASSERT_FALSE(mesh.map_offsets.empty());
-  const auto fault_of = [&](auto spoil) {
-    ProgressiveStrips bad = good;
-    spoil(bad.meshes[0]);
-    const Result<void> result = check(bad);
-    return result ? Fault::none : result.error().fault;
-  };
+  const auto fault_of = [&](auto spoil) { return fault_when(good, spoil); };
   using M = ProgressiveMesh;
   for (std::size_t i = 0; i < mesh.new_corners.size(); ++i)
     EXPECT_EQ(fault_of([&](M& m) { m.new_corners[i] = m.wedges; }), Fault::corner_not_there);
-  EXPECT_EQ(fault_of([](M& m) { m.map_offsets[0] = 3 * m.triangles; }),
-            Fault::offset_past_end);
+  EXPECT_EQ(fault_of([](M& m) { m.map_offsets[0] = 3 * m.triangles; }), Fault::offset_past_end);
   EXPECT_EQ(fault_of([](M& m) { m.base_map[1] = kRestart; }), Fault::map_triangles);
   EXPECT_EQ(fault_of([](M& m) { m.base_map.push_back(0); }), Fault::map_triangles);
   EXPECT_EQ(fault_of([](M& m) { m.new_corners.push_back(0); }), Fault::list_length);
