@@ -4,6 +4,7 @@
 
 #include "formats/pstrip/payload/extras.h"
 #include "formats/pstrip/payload/geometry_layout.h"
+#include "formats/pstrip/payload/index_rows.h"
 
 namespace pstrips::inline validators {
 namespace {
@@ -35,8 +36,7 @@ class Locator {
       case Field::index:
         return chunk(type(kIndexChunk));
       case Field::row:
-        return in_payload(type(kIndexChunk), 8 + kIndexRowBytes * where_.element,
-                          numbered(", row ", where_.element));
+        return row();
       case Field::node:
         return in_scene(&doc_.strips.scene.nodes[where_.element].name, ", node ");
       case Field::material:
@@ -51,6 +51,16 @@ class Locator {
   }
 
  private:
+  Location row() const {
+    const auto before = std::span(doc_.index).first(where_.element);
+    const std::uint64_t at = size_of_fields([&](SizeIo& io) {
+      const Index index = type(kIndexChunk);
+      const std::uint64_t start = chunks_[index].offset + chunks_[index].bytes();
+      index_fields(io, before, doc_.strips.meshes, start);
+    });
+    return in_payload(type(kIndexChunk), at, numbered(", row ", where_.element));
+  }
+
   /// The first chunk of the type; kNone when there is none.
   Index type(const ChunkType& wanted) const {
     const auto found = std::ranges::find(chunks_, wanted, &Chunk::type);

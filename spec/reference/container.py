@@ -44,6 +44,22 @@ class Payload:
     def u64(self):
         return self.number("Q")
 
+    def varint(self, bits=32):
+        value = at = 0
+        while True:
+            byte = self.u8()
+            value |= (byte & 127) << at
+            at += 7
+            if byte < 128:
+                break
+            require(at < bits, "C-020")
+        require(value < 1 << bits and (byte or at == 7), "C-020")
+        return value
+
+    def folded(self):
+        value = self.varint()
+        return -(value >> 1) - 1 if value & 1 else value >> 1
+
     def one_of(self, count):
         """A byte with a list of values, 0 to count - 1."""
         value = self.u8()
@@ -232,13 +248,34 @@ class Row:
     one_sided_error: float
 
 
-def read_pidx(chunk):
+def read_pidx(chunk, meshes):
     """container.md 6."""
     payload = Payload(chunk.payload)
-    count = payload.u32()
-    payload.zeros(4)
-    rows = [Row(*struct.unpack("<QIIIIIIff", payload.take(40))) for _ in range(count)]
-    payload.end()
+    rows = []
+    last = {}  # the row before of a mesh
+    end = chunk.offset + chunk.bytes
+    while payload.at < len(payload.data):
+        size = payload.varint(33)
+        offset = end + (payload.varint(63) + 1 if size & 1 else 0)
+        end = offset + (size >> 1)
+        number, vsplits = len(rows), 0
+        if number >= len(meshes):
+            number = 0 if len(meshes) == 1 else payload.varint()
+            vsplits = payload.varint()
+        require(number < len(meshes), "C-042")
+        mesh, before = meshes[number], last.get(number)
+        vertices = before.vertices + vsplits if before else mesh.base_vertices
+        surplus = (before.triangles - 2 * before.vertices if before else 0) + payload.folded()
+        triangles = (surplus + 2 * vertices) % 2**32
+        strips = triangles
+        if mesh.encoding != model.TRIANGLES:
+            strips = ((before.strips if before else 0) + payload.folded()) % 2**32
+        error = payload.take(4)
+        bits = (int.from_bytes(error, "little") - payload.varint()) % 2**32
+        one_sided = struct.unpack("<f", bits.to_bytes(4, "little"))[0]
+        last[number] = Row(offset, size >> 1, number, vsplits, vertices, triangles, strips,
+                           struct.unpack("<f", error)[0], one_sided)
+        rows.append(last[number])
     return rows
 
 

@@ -36,7 +36,7 @@ class File:
         self.meshes = [container.read_mesh(chunk, self.header.profile, materials)
                        for chunk in self.named(b"MESH")]
         self.check_totals()
-        self.rows = container.read_pidx(self.named(b"PIDX")[0])
+        self.rows = container.read_pidx(self.named(b"PIDX")[0], self.meshes)
         self.check_rows()
         self.decode(packets)
         container.check_images(self.named(b"iMGE"), embedded)

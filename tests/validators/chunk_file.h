@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "core/progressive_strips.h"
 #include "formats/pstrip/container/chunks.h"
+#include "formats/pstrip/container/header.h"
 
 namespace pstrips::test {
 
@@ -40,12 +42,21 @@ class ChunkFile {
     return value;
   }
 
+  /// What PIDX says; a row that was edited is in the file after write_rows().
+  std::vector<IndexRow>& rows() { return rows_; }
+  ChunkFile& write_rows();
+
   /// Brings offsets and sizes in PSHD and PIDX in line with where the chunks now stand.
   ChunkFile& settle();
   Bytes bytes() const;
 
  private:
+  std::uint64_t end_of_index() const;
+  void settle_rows();
+
   std::vector<Item> items_;
+  std::vector<ProgressiveMesh> meshes_;  // as MESH describes them
+  std::vector<IndexRow> rows_;
   std::uint64_t largest_ = 0;  // bytes of the largest BASE or PCKT, as decoder_memory counts it
 };
 

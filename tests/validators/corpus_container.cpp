@@ -7,7 +7,6 @@ namespace {
 // Where the fields of roof()'s MESH stand; its name takes eight bytes.
 constexpr std::size_t kEncodingByte = 8, kReservedByte = 11, kPositionType = 24,
                       kPositionCount = 25;
-constexpr std::size_t kFirstRow = 8, kRowBytes = 40, kRowVsplits = 16;
 constexpr std::size_t kPacketHead = 24;
 
 ChunkFile::Item chunk(const char (&type)[5], Bytes payload = {}) {
@@ -140,22 +139,29 @@ constexpr Case kCases[] = {
     {"PS1037_length_past_the_file.pstrip",
      [] { return edited_bytes(roof(), [](Bytes& b) { b[b.size() - 11] = std::byte{1}; }); }},
     {"PS1040_a_row_too_few.pstrip",
-     [] {
-       return settled(roof(), [](ChunkFile& f) {
-         f.payload("PIDX").resize(kFirstRow + 2 * kRowBytes);
-         f.put("PIDX", 0, 2u);
-       });
-     }},
+     [] { return settled(roof(), [](ChunkFile& f) { f.rows().pop_back(); }); }},
     {"PS1040_no_index.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { erase(f, "PIDX"); }); }},
+    {"PS1041_bytes_of_a_row.pstrip",
+     [] {
+       return recut(roof(), [](ChunkFile& f) {
+         f.rows().back().bytes += 8;
+         f.write_rows();
+       });
+     }},
     {"PS1041_offset_of_a_row.pstrip",
      [] {
-       return recut(roof(), [](ChunkFile& f) { f.put("PIDX", kFirstRow, std::uint64_t{16}); });
+       // The row says that another chunk stands before the packet. It makes PIDX longer by a byte.
+       ChunkFile file(written(roof()));
+       file.rows().back().offset += 8;
+       return file.write_rows().bytes();
      }},
     {"PS1042_vsplits_of_a_row.pstrip",
      [] {
-       return recut(roof(),
-                    [](ChunkFile& f) { f.put("PIDX", kFirstRow + kRowBytes + kRowVsplits, 9u); });
+       return recut(roof(), [](ChunkFile& f) {
+         f.rows()[1].vsplits = 9;
+         f.write_rows();
+       });
      }},
     {"PS1050_base_of_another_mesh.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("BASE", 0, 1u); }); }},

@@ -98,8 +98,10 @@ constexpr Case kCases[] = {
          s.packets.insert(s.packets.begin() + 1, packet);
        });
      }},
-    {"PS2023_vertices_after_a_packet.pstrip",
-     [] { return edited(roof(), [](ProgressiveStrips& s) { s.packets[0].vertices = 6; }); }},
+    {"PS2023_vertices_after_a_packet.pstripx",
+     [] {
+       return reworded(roof(), "vertices=\"5\" triangles=\"4\"", "vertices=\"6\" triangles=\"4\"");
+     }},
     {"PS2024_triangles_after_the_base.pstrip",
      [] { return edited(roof(), [](ProgressiveStrips& s) { s.bases[0].triangles = 3; }); }},
     {"PS2024_triangles_after_a_packet.pstripx",

@@ -7,10 +7,13 @@
 
 namespace pstrips::inline formats {
 
+/// Of files that this version writes. [spec/container.md §14]
+inline constexpr std::uint16_t kVersionMinor = 3;
+
 /// What PSHD says. [spec/container.md §5.1]
 struct FileHeader {
   std::uint16_t version_major = 1;
-  std::uint16_t version_minor = 0;
+  std::uint16_t version_minor = kVersionMinor;
   std::uint8_t profile = 0;      ///< see Profile
   std::uint8_t conformance = 0;  ///< conformance level, see conformance_level()
   std::uint16_t flags = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formats/pstrip/payload/extras.h"
+#include "formats/pstrip/payload/index_rows.h"
 #include "formats/pstrip/payload/records.h"
 
 namespace pstrips::inline formats {
@@ -15,7 +16,6 @@ namespace {
 Packet level_of(const IndexRow* row, Index mesh, Index vertices) {
   Packet level{.mesh = mesh, .vertices = vertices};
   if (row == nullptr) return level;
-  level.vertices = row->vertices;
   level.triangles = row->triangles;
   level.strips = row->strips;
   level.error = row->error;
@@ -178,10 +178,9 @@ bool PayloadDecoder::read_index(ReadIo& io) {
   if (checks_model() &&
       (!holds(fault_of_totals(*header_, counts_)) || !check_scene(strips_, faults_)))
     return false;
-  index_fields(io, rows_);
+  index_fields(io, rows_, strips_.meshes, chunk_->offset + chunk_->bytes());
   if (!io.finish()) return false;
-  if (checks_model() &&
-      !holds(fault_of_rows(rows_, *header_, counts_, *chunk_, codec_of(strips_.profile))))
+  if (checks_model() && !holds(fault_of_rows(rows_, *header_, *chunk_, codec_of(strips_.profile))))
     return false;
   if (checks_model())
     reservation_ = Reservation(rows_, strips_.meshes.size(),

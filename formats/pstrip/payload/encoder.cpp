@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formats/pstrip/payload/extras.h"
+#include "formats/pstrip/payload/index_rows.h"
 
 namespace pstrips::inline formats {
 
@@ -34,9 +35,23 @@ PayloadEncoder::PayloadEncoder(const ProgressiveStrips& strips,
   for (const Image& image : strips.scene.images) embedded_.push_back(image.data.empty() ? 0 : 1);
   for (const BaseLevel& base : strips.bases) rows_.push_back(row_of(base));
   for (const Packet& packet : strips.packets) rows_.push_back(row_of(packet));
+  size_rows();
   plan_chunks();
   sum_totals();
   fill_index();
+}
+
+// As if the first chunk of a row stood at 0.
+void PayloadEncoder::size_rows() {
+  std::uint64_t offset = 0;
+  const std::size_t bases = strips_.bases.size();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::uint64_t payload = i < bases ? geometry_->base_bytes(static_cast<Index>(i))
+                                            : geometry_->packet_bytes(i - bases);
+    rows_[i].offset = offset;
+    rows_[i].bytes = static_cast<std::uint32_t>(chunk_bytes(payload));
+    offset += rows_[i].bytes;
+  }
 }
 
 void PayloadEncoder::plan_chunks() {
@@ -103,12 +118,7 @@ void PayloadEncoder::sum_totals() {
   header_.meshes = static_cast<std::uint32_t>(strips_.meshes.size());
   header_.packets = static_cast<std::uint32_t>(strips_.packets.size());
   std::vector<MeshCounts> counts;
-  for (const ProgressiveMesh& mesh : strips_.meshes) {
-    counts.push_back(counts_of(mesh));
-    const bool grows = mesh.encoding == MapEncoding::triangles;
-    const std::uint16_t needed = grows ? 2 : OrderPayload::is_needed(mesh) ? 1 : 0;
-    header_.version_minor = std::max(header_.version_minor, needed);  // 1 has oRDP
-  }
+  for (const ProgressiveMesh& mesh : strips_.meshes) counts.push_back(counts_of(mesh));
   for (const Total& total : kTotals) header_.*total.total = sum_of(total, counts);
 }
 
@@ -120,8 +130,7 @@ void PayloadEncoder::fill_index() {
     if (chunk.type == kIndexChunk || chunk.type == kBaseChunk) header_.base_end = end;
     if (chunk.type != kBaseChunk && chunk.type != kPacketChunk) continue;
     largest = std::max(largest, chunk.bytes());
-    rows_[row].offset = chunk.offset;
-    rows_[row++].bytes = static_cast<std::uint32_t>(chunk.bytes());
+    rows_[row++].offset = chunk.offset;
   }
   header_.file_bytes = chunks_.back().offset + chunks_.back().bytes();
   header_.decoder_memory = decoder_memory(strips_.meshes, largest);
@@ -139,7 +148,8 @@ void PayloadEncoder::fields(Io& io, const PlannedChunk& chunk) const {
     const MeshCounts counts = counts_of(strips_.meshes[i]);
     return mesh_fields(io, strips_.meshes[i], counts, strips_.profile);
   }
-  if (chunk.type == kIndexChunk) return index_fields(io, rows_);
+  if (chunk.type == kIndexChunk)
+    return index_fields(io, rows_, strips_.meshes, rows_.empty() ? 0 : rows_.front().offset);
   if (chunk.type == kImageChunk) {
     const auto image = static_cast<Index>(i);
     return image_fields(io, image, scene.images[i].data);

@@ -36,6 +36,7 @@ class PayloadEncoder {
 
  private:
   PayloadEncoder(const ProgressiveStrips& strips, std::unique_ptr<GeometryWriter> geometry);
+  void size_rows();
   void plan_chunks();
   void plan(const ChunkType& type, std::size_t element);
   std::size_t elements(ChunkOf of) const;

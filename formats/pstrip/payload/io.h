@@ -69,6 +69,21 @@ inline bool ends_in_zeros(ByteView bytes, unsigned bits, std::uint64_t n) {
   return used == 0 || std::to_integer<unsigned>(bytes.back()) >> used == 0;
 }
 
+// Varints: seven bits a byte, low ones first; the top bit says that more follow.
+// [spec/container.md]
+
+/// Bytes of a number.
+constexpr std::uint64_t varint_bytes(std::uint64_t number) {
+  return number == 0 ? 1 : (static_cast<unsigned>(std::bit_width(number)) + 6) / 7;
+}
+
+/// Calls put(byte) for each.
+template <class Put>
+void put_varint(std::uint64_t number, Put&& put) {
+  for (; number >= 0x80; number >>= 7) put(static_cast<std::byte>((number & 0x7f) | 0x80));
+  put(static_cast<std::byte>(number));
+}
+
 /// Adds up bytes. Counts from a file are safe here: no product of 32-bit counts and 8-bit sizes
 /// leaves 64 bits.
 class SizeIo {
@@ -79,6 +94,7 @@ class SizeIo {
   void number(const T&) {
     skip(sizeof(T));
   }
+  void varint(std::uint64_t v, unsigned) { skip(varint_bytes(v)); }
   template <class E>
   void choice(const E&, std::uint8_t, Fault = {}) {
     skip(1);
@@ -126,6 +142,9 @@ class WriteIo {
   void number(const T& v) {
     static_assert(std::is_arithmetic_v<T>);
     put(&v, sizeof v);
+  }
+  void varint(std::uint64_t v, unsigned) {
+    put_varint(v, [&](std::byte b) { put(&b, 1); });
   }
   template <class E>
   void choice(const E& v, std::uint8_t, Fault = {}) {
@@ -218,6 +237,23 @@ class ReadIo {
     static_assert(std::is_arithmetic_v<T>);
     const ByteView bytes = in_.take(sizeof v);
     if (bytes.size() == sizeof v) std::memcpy(&v, bytes.data(), sizeof v);
+  }
+  /// A number of at most `bits` bits, in its shortest form.
+  template <class T>
+  void varint(T& v, unsigned bits, Fault otherwise = Fault::payload_length) {
+    const std::uint64_t start = in_.offset();
+    std::uint64_t number = 0;
+    for (unsigned at = 0; at < bits; at += 7) {
+      const std::uint8_t byte = in_.u8();
+      number |= std::uint64_t{byte & 0x7fu} << at;
+      if (byte >= 0x80) continue;
+      if ((byte == 0 && at > 0) || number >> bits != 0) break;
+      v = static_cast<T>(number);
+      return;
+    }
+    if (in_.error()) return;
+    report(otherwise, start);
+    failed_ = true;
   }
   /// An enumeration or flag: one byte below `values`.
   template <class E>

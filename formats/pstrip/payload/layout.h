@@ -7,7 +7,7 @@
 #include "formats/pstrip/payload/predicates.h"
 
 // For formats/pstrip and validators: the wire layout of the payloads that all profiles share, once,
-// for reading, writing, sizing and listing. [spec/container.md §5, §6, §8, §9]
+// for reading, writing, sizing and listing. [spec/container.md §5, §8, §9]
 //
 // A `…_fields(io, v)` function names the fields of a payload in file order; what happens to them
 // is the business of the Io, see io.h. v is const for all but ReadIo.
@@ -21,7 +21,7 @@ inline constexpr std::size_t kMinNodeBytes = kMinStringBytes + 4 + 16 * 8 + 4;
 inline constexpr std::size_t kMinMaterialBytes = kMinStringBytes + 9 * 8 + 8;
 inline constexpr std::size_t kMinImageBytes = 3 * kMinStringBytes + 4;
 
-// ---- PSHD, PIDX ----------------------------------------------------------------------------
+// ---- PSHD --------------------------------------------------------------------------------
 
 template <class Io, class H>
 void header_fields(Io& io, H& h) {
@@ -43,31 +43,6 @@ void header_fields(Io& io, H& h) {
   io.number(h.base_end);
   io.number(h.file_bytes);
 }
-inline constexpr std::size_t kIndexRowBytes = 40;
-
-template <class Io, class Rows>
-void index_fields(Io& io, Rows& rows) {
-  std::uint32_t count = static_cast<std::uint32_t>(rows.size());
-  io.number(count);
-  io.zeros(4);
-  if constexpr (Io::kReads) {
-    if (count != io.in().remaining() / kIndexRowBytes)
-      io.in().fail(ErrorCode::corrupt, "row count contradicts the payload");
-    rows.resize(io.in().error() ? 0 : count);
-  }
-  for (auto& row : rows) {
-    io.number(row.offset);
-    io.number(row.bytes);
-    io.number(row.mesh);
-    io.number(row.vsplits);
-    io.number(row.vertices);
-    io.number(row.triangles);
-    io.number(row.strips);
-    io.number(row.error);
-    io.number(row.one_sided_error);
-  }
-}
-
 // ---- MESH ----------------------------------------------------------------------------------
 
 struct MeshCounts {

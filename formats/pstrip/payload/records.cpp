@@ -30,8 +30,7 @@ Fault fault_of_totals(const FileHeader& header, std::span<const MeshCounts> mesh
   return hold ? Fault::none : Fault::totals;
 }
 
-Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header,
-                    std::span<const MeshCounts> meshes, const Chunk& chunk,
+Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header, const Chunk& chunk,
                     const GeometryCodec& codec) {
   if (rows.size() != std::uint64_t{header.meshes} + header.packets) return Fault::row_count;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -39,9 +38,6 @@ Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header,
     const std::uint64_t least = is_base ? codec.min_base_bytes() : codec.min_packet_bytes();
     if (const Fault fault = fault_of_row(rows[i], header, least); fault != Fault::none)
       return fault;
-    if (!is_base) continue;
-    if (rows[i].mesh != i || rows[i].vsplits != 0) return Fault::row_contents;
-    if (rows[i].vertices != meshes[i].base_vertices) return Fault::row_vertices;
   }
   if (header.meshes == 0 && chunk.offset + chunk.bytes() != header.base_end) return Fault::base_end;
   return Fault::none;
@@ -74,7 +70,6 @@ Fault fault_of_packet_row(const IndexRow* row, const Chunk& chunk, const PacketH
     if (std::uint64_t{3} * head.triangles > full_map_entries(mesh) - there)
       return Fault::triangle_growth;
   }
-  if (row->vertices != start.vertices + head.vsplits) return Fault::row_vertices;
   return Fault::none;
 }
 

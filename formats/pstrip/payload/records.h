@@ -16,8 +16,7 @@ Fault fault_of_totals(const FileHeader& header, std::span<const layout::MeshCoun
 /// Rows of PIDX by themselves and against what came before them.
 ///
 /// chunk  the PIDX
-Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header,
-                    std::span<const layout::MeshCounts> meshes, const Chunk& chunk,
+Fault fault_of_rows(std::span<const IndexRow> rows, const FileHeader& header, const Chunk& chunk,
                     const GeometryCodec& codec);
 
 /// What a BASE says of itself against its MESH.

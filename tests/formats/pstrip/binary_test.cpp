@@ -12,6 +12,7 @@
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/layout.h"
 #include "tests/support/progressive.h"
+#include "tests/validators/chunk_file.h"
 
 namespace pstrips {
 namespace {
@@ -55,34 +56,11 @@ void put_u32(std::span<std::byte> payload, std::size_t at, std::uint32_t v) {
   std::memcpy(payload.data() + at, &v, 4);
 }
 
-/// A chunk by itself.
-Bytes make_chunk(const ChunkType& type, std::string_view payload) {
-  ByteWriter out;
-  out.bytes(as_bytes(name_of(type)));
-  out.string(payload);
-  out.bytes(Bytes(chunk_bytes(payload.size()) - 4 - out.size()));
-  out.u32(chunk_crc(out.view()));
-  return std::move(out).take();
-}
-
-/// `file` with `chunk` in front of the nth chunk, offsets and sizes in PSHD and PIDX adjusted.
-Bytes insert_chunk(const Bytes& file, ByteView chunk, std::size_t nth) {
-  const std::uint64_t at = read_chunks(file).chunks[nth].offset;
-  Bytes out = file;
-  out.insert(out.begin() + static_cast<std::ptrdiff_t>(at), chunk.begin(), chunk.end());
-  const auto shift = [&](std::span<std::byte> field, std::uint64_t from) {
-    std::uint64_t v;
-    std::memcpy(&v, field.data(), 8);
-    if (v >= from) v += chunk.size();
-    std::memcpy(field.data(), &v, 8);
-  };
-  const std::span<std::byte> header = payload_of(out, kHeaderChunk);
-  shift(header.subspan(80), at + 1);  // base_end: a chunk behind the last BASE is not before it
-  shift(header.subspan(88), 0);       // file_bytes
-  const std::span<std::byte> index = payload_of(out, kIndexChunk);
-  for (std::size_t row = 8; row < index.size(); row += 40) shift(index.subspan(row), at);
-  seal(out);
-  return out;
+/// `file` with `chunk` in front of the nth chunk, offsets and sizes in PSHD and PIDX in line.
+Bytes insert_chunk(const Bytes& file, test::ChunkFile::Item chunk, std::size_t nth) {
+  test::ChunkFile out(file);
+  out.items().insert(out.items().begin() + static_cast<std::ptrdiff_t>(nth), std::move(chunk));
+  return out.settle().bytes();
 }
 
 TEST(Binary, ReadsWhatItWrote) {
@@ -248,10 +226,10 @@ TEST(Binary, RandomDamageWithRightCrcsIsRefusedOrSafe) {
 TEST(Binary, KeepsUnknownAncillaryChunks) {
   const ProgressiveStrips strips = random_progressive(5, {.meshes = 2, .scene = true});
   const Bytes file = write_binary(strips).value();
-  const Bytes extra = make_chunk(chunk_type("noTe"), "remember me");
   ProgressiveStrips expected = strips;
   expected.unknown = {
       {chunk_type("noTe"), Bytes(as_bytes("remember me").begin(), as_bytes("remember me").end())}};
+  const test::ChunkFile::Item extra{expected.unknown[0].type, expected.unknown[0].payload};
   const std::size_t chunks = read_chunks(file).chunks.size();
   for (std::size_t nth = 1; nth < chunks; ++nth) {
     SCOPED_TRACE(nth);
@@ -265,12 +243,12 @@ TEST(Binary, KeepsUnknownAncillaryChunks) {
 
 TEST(Binary, RefusesUnknownCriticalChunks) {
   const Bytes file = write_binary(random_progressive(5)).value();
-  const Bytes extra = make_chunk(chunk_type("NOTE"), "");
   for (std::size_t nth = 1; nth < read_chunks(file).chunks.size(); ++nth) {
-    const auto read = read_binary(insert_chunk(file, extra, nth));
+    const Bytes bad = insert_chunk(file, {chunk_type("NOTE"), {}}, nth);
+    const auto read = read_binary(bad);
     ASSERT_FALSE(read);
     EXPECT_EQ(read.error().code, ErrorCode::unsupported);
-    EXPECT_EQ(read.error().offset, read_chunks(file).chunks[nth].offset);
+    EXPECT_EQ(read.error().offset, read_chunks(bad).chunks[nth].offset);
   }
 }
 
@@ -330,10 +308,9 @@ TEST(Binary, RefusesBadFieldsAndSaysWhichDemandIsBroken) {
       {"name_longer_than_payload", kMeshChunk, 0, 0x7fff'ffff, Fault::payload_length},
       {"scene_nodes", kSceneChunk, 9, 0x7fff'ffff, Fault::payload_length},
       {"materials", kMaterialsChunk, 0, 0xffff'ffff, Fault::payload_length},
-      {"rows", kIndexChunk, 0, 0xffff'ffff, Fault::payload_length},
-      {"row_reserved", kIndexChunk, 4, 1, Fault::reserved_not_zero},
-      {"row_offset", kIndexChunk, 8, 0, Fault::row_chunk},
-      {"row_bytes", kIndexChunk, 16, 8, Fault::row_chunk},
+      {"row_too_long_a_number", kIndexChunk, 0, 0xffff'ffff, Fault::payload_length},
+      {"row_not_the_shortest", kIndexChunk, 0, 0x80, Fault::payload_length},
+      {"row_bytes", kIndexChunk, 0, 0x107f, Fault::row_chunk},
       {"base_mesh", kBaseChunk, 0, 1, Fault::base_mesh},
       {"base_vertices", kBaseChunk, 4, 0xffff'ff00, Fault::base_counts},
       {"base_map", kBaseChunk, 12, 0xffff'ff00, Fault::base_counts},

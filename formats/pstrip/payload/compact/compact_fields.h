@@ -11,25 +11,15 @@
 
 namespace pstrips::inline formats {
 
-/// Seven bits a byte, low ones first; the top bit says that more follow.
 inline void put_varint(Bytes& out, std::uint64_t number) {
-  for (; number >= 0x80; number >>= 7)
-    out.push_back(static_cast<std::byte>((number & 0x7f) | 0x80));
-  out.push_back(static_cast<std::byte>(number));
+  layout::put_varint(number, [&](std::byte b) { out.push_back(b); });
 }
 
 /// A number of at most `bits` bits, in its shortest form.
 inline std::uint64_t take_varint(layout::ReadIo& io, unsigned bits) {
   std::uint64_t number = 0;
-  for (unsigned at = 0; at < bits; at += 7) {
-    const std::uint8_t byte = io.in().u8();
-    number |= std::uint64_t{byte & 0x7fu} << at;
-    if (byte >= 0x80) continue;
-    if ((byte == 0 && at > 0) || number >> bits != 0) break;
-    return number;
-  }
-  io.refuse(Fault::compact_number);
-  return 0;
+  io.varint(number, bits, Fault::compact_number);
+  return number;
 }
 
 inline Index take_index(layout::ReadIo& io) { return static_cast<Index>(take_varint(io, 32)); }
