@@ -15,9 +15,13 @@ enum class Part : std::uint8_t {
   base_map,        ///< the index map
   parents,         ///< which vertex each vsplit splits
   counts,          ///< wedges, reassigned wedges and map offsets of each record
+  connectivity,    ///< how a split parts the faces of its vertex
   positions,       ///< of the new vertices
   parent_positions,
-  wedges,         ///< attributes of the new wedges
+  tangential,     ///< steps from a vertex to the new one, along the surface
+  normal,         ///< steps along its normal
+  attributes,     ///< of the new wedges
+  wedges,         ///< which corners show them, and the groups of triangles
   reassigned,     ///< wedges taken over
   map_offsets,    ///< index-map offsets
   new_triangles,  ///< what vsplits append to a map of triangles
@@ -33,9 +37,14 @@ enum class Part : std::uint8_t {
 
 /// What a report sums parts up to, in the order in which it lists them.
 enum class PartGroup : std::uint8_t {
-  names_and_offsets,
+  names,
+  connectivity,
   positions,
+  tangential,
+  normal,
   wedges,
+  attributes,
+  strips,
   base,
   fine,
   faces,
@@ -43,7 +52,7 @@ enum class PartGroup : std::uint8_t {
   scene,
   container,
 };
-inline constexpr std::size_t kPartGroups = 9;
+inline constexpr std::size_t kPartGroups = 14;
 
 struct PartDescription {
   Part part;
@@ -58,14 +67,18 @@ inline constexpr PartDescription kParts[] = {
     {Part::base_positions, "base_positions", PartGroup::base},
     {Part::base_wedges, "base_wedges", PartGroup::base},
     {Part::base_map, "base_map", PartGroup::base},
-    {Part::parents, "parents", PartGroup::names_and_offsets},
-    {Part::counts, "counts", PartGroup::names_and_offsets},
+    {Part::parents, "parents", PartGroup::names},
+    {Part::counts, "counts", PartGroup::strips},
+    {Part::connectivity, "connectivity", PartGroup::connectivity},
     {Part::positions, "positions", PartGroup::positions},
     {Part::parent_positions, "parent_positions", PartGroup::positions},
+    {Part::tangential, "tangential", PartGroup::tangential},
+    {Part::normal, "normal", PartGroup::normal},
+    {Part::attributes, "attributes", PartGroup::attributes},
     {Part::wedges, "wedges", PartGroup::wedges},
-    {Part::reassigned, "reassigned", PartGroup::names_and_offsets},
-    {Part::map_offsets, "map_offsets", PartGroup::names_and_offsets},
-    {Part::new_triangles, "new_triangles", PartGroup::names_and_offsets},
+    {Part::reassigned, "reassigned", PartGroup::wedges},
+    {Part::map_offsets, "map_offsets", PartGroup::strips},
+    {Part::new_triangles, "new_triangles", PartGroup::connectivity},
     {Part::fine, "fine", PartGroup::fine},
     {Part::faces, "faces", PartGroup::faces},
     {Part::order, "order", PartGroup::order},
@@ -86,9 +99,14 @@ struct PartGroupName {
 };
 constexpr PartGroupName name_of(PartGroup group) {
   constexpr PartGroupName kNames[kPartGroups] = {
-      {"names_and_offsets", "names and offsets"},
+      {"names", "names"},
+      {"connectivity", "connectivity"},
       {"positions", "positions"},
+      {"tangential", "positions, tangential"},
+      {"normal", "positions, normal"},
       {"wedges", "wedges"},
+      {"attributes", "attributes"},
+      {"strips", "strips"},
       {"base", "base"},
       {"fine", "bits below the cells"},
       {"faces", "faces"},

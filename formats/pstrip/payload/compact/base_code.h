@@ -105,6 +105,7 @@ class BaseCode {
   Index vertex(Index t, unsigned k) const { return mesh_.wedge_vertex[mesh_.corners[3 * t + k]]; }
 
   Result<void> code_triangle(Index t) {
+    coder_.part(Part::base_map);
     const Gate* const gate = code_place(t);
     if (gate == nullptr && !at_none_) return broken(Fault::compact_base);
     std::array<Index, 3> v{};
@@ -171,6 +172,7 @@ class BaseCode {
   }
 
   Index code_third(Index wanted) {
+    coder_.part(Part::base_map);
     const std::vector<Index> likely = likely_thirds();
     unsigned symbol = kNamed;
     if constexpr (!Coder::kReads) {
@@ -187,6 +189,7 @@ class BaseCode {
   }
 
   Index code_vertex(Index wanted) {
+    coder_.part(Part::base_map);
     if (coder_.bit(models_.next_vertex, wanted == next_vertex_)) return next_vertex_;
     return coder_.raw(wanted, bits_for(counts_.vertices));
   }
@@ -229,6 +232,7 @@ class BaseCode {
 
   void code_position(Index v, std::array<NumberModel, 3>& models, GridPoint predicted) {
     GridPoint& at = mesh_.positions[v];
+    coder_.part(Part::base_positions);
     code_number(models[0], predicted.x, at.x);
     code_number(models[1], predicted.y, at.y);
     code_number(models[2], predicted.z, at.z);
@@ -245,6 +249,7 @@ class BaseCode {
 
   /// usual  a wedge of v, or kNone
   Result<void> code_wedge(Index& wedge, Index v, Index usual, const Row& predicted) {
+    coder_.part(Part::base_wedges);
     if (counts_.single_wedges) {
       wedge = v;
       if (!is_known_wedge_[v]) code_new_wedge(v, v, predicted);
@@ -279,6 +284,7 @@ class BaseCode {
 
   void code_group(Index t) {
     if (counts_.groups < 2) return;
+    coder_.part(Part::base_map);
     const Index before = t > 0 ? mesh_.group[t - 1] : 0;
     Index& group = mesh_.group[t];
     if (coder_.bit(models_.same_group, group == before))

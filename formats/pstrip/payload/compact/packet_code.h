@@ -141,6 +141,7 @@ class PacketCode {
     const StarMesh& mesh = state_.mesh();
     list_corners(added, record.moved);
     if (!state_.single_wedges || state_.groups > 1) list_corners(parent, record.kept);
+    coder_.part(Part::wedges);
     if (!state_.single_wedges) {
       if (auto ok = WedgeCode<Coder>(coder_, state_, parent, added, record).run(); !ok) return ok;
     } else if constexpr (Coder::kReads) {
@@ -184,6 +185,7 @@ class PacketCode {
   }
 
   void code_attributes(Index added, const SplitRecord& record) {
+    coder_.part(Part::attributes);
     attributes_.start(state_.wedges - record.new_wedges);
     for (const Index corner : record.moved) attributes_.add_face(corner);
     for (Index at = 0; at < record.corners.size(); ++at) {
@@ -199,11 +201,13 @@ class PacketCode {
     if constexpr (Coder::kReads)
       if (coder_.overrun()) return broken(Fault::compact_run);
     GridPoint& at = state_.last_isolated;
+    coder_.part(Part::positions);
     const auto coded = [&](unsigned k, std::int32_t from, std::int32_t to) {
       return from + state_.models.isolated_position[k].code(coder_, Coder::kReads ? 0 : to - from);
     };
     at = {coded(0, at.x, wanted.x), coded(1, at.y, wanted.y), coded(2, at.z, wanted.z)};
     if (!is_on_grid(at)) return broken(Fault::compact_step);
+    coder_.part(Part::wedges);
     SplitRecord& record = records_.record();
     if (state_.single_wedges)
       record.new_wedges = 1;
@@ -216,6 +220,7 @@ class PacketCode {
     show(added, record);
     if (state_.columns > 0) {
       const Index first = state_.wedges - record.new_wedges;
+      coder_.part(Part::attributes);
       attributes_.start(first);
       attributes_.code(first > 0 ? first - 1 : kNone, kNone,
                        [&](Index wedge) { return records_.cells_of(wedge); });

@@ -34,16 +34,16 @@ Bytes RansWriter::finish() {
   return out;
 }
 
-RansReader::RansReader(ByteView bytes) : bytes_(bytes) {
+RansState::RansState(ByteView bytes) : bytes_(bytes) {
   state_ = word() << 16;
   state_ |= word();
 }
 
-bool RansReader::complete() const {
+bool RansState::complete() const {
   return !overrun_ && at_ == bytes_.size() && state_ == kLeastState;
 }
 
-std::uint32_t RansReader::word() {
+std::uint32_t RansState::word() {
   if (bytes_.size() - at_ < 2) {
     overrun_ = true;
     at_ = bytes_.size();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "formats/pstrip/container/part.h"
 
 // Adaptive entropy coding: a model gives each symbol a share of 2^15, a range coder (rANS) spends
 // about -log2(share) bits on it, and the model learns. All arithmetic is on integers of stated
@@ -16,7 +17,8 @@
 //
 // A coder in a template is a RansWriter or a RansReader: both have bit, symbol, choice and raw,
 // which take the value to write (a reader ignores it) and return the value that stands there. So
-// one function says what a record looks like, and the two sides cannot drift apart.
+// one function says what a record looks like, and the two sides cannot drift apart. part() says
+// what the codes from there on are spent on, for whoever counts them.
 
 namespace pstrips::inline formats {
 
@@ -171,6 +173,8 @@ class RansWriter {
     return value;
   }
 
+  void part(Part) {}
+
   /// The bytes of all symbols so far; the writer is empty afterwards, the models go on.
   Bytes finish();
 
@@ -186,14 +190,50 @@ class RansWriter {
   std::vector<Step> steps_;
 };
 
-/// Reads back what a RansWriter wrote, from bytes that nobody vouches for: past their end it reads
-/// zeros, and complete() is false.
-class RansReader {
+/// The words of a run, from bytes that nobody vouches for: past their end there are zeros.
+class RansState {
+ public:
+  explicit RansState(ByteView bytes);
+
+  /// All bytes are used up, none too many, and the coder is where the writer began. False for
+  /// nearly all bytes that no writer made.
+  bool complete() const;
+  /// Bytes were missing: what was read since is made up.
+  bool overrun() const { return overrun_; }
+
+ protected:
+  std::uint32_t share() const { return state_ & (kShares - 1); }
+  void take(std::uint32_t start, std::uint32_t shares) {
+    state_ = shares * (state_ >> kShareBits) + share() - start;
+    if (state_ < (1u << 16)) state_ = state_ << 16 | word();
+  }
+
+ private:
+  std::uint32_t word();
+
+  ByteView bytes_;
+  std::size_t at_ = 0;
+  std::uint32_t state_ = 0;
+  bool overrun_ = false;
+};
+
+/// Counts nothing.
+struct NoTally {
+  void part(Part) {}
+  void add(std::uint32_t) {}
+};
+
+/// Reads back what a RansWriter wrote.
+///
+/// Tally: part(p) begins codes of a part, add(shares) is one that had so many of kShares
+template <class Tally>
+class TallyingReader : public RansState {
  public:
   static constexpr bool kReads = true;
 
-  explicit RansReader(ByteView bytes);
+  explicit TallyingReader(ByteView bytes, Tally tally = {}) : RansState(bytes), tally_(tally) {}
 
+  void part(Part p) { tally_.part(p); }
   bool bit(BitModel& model, bool = false) {
     const bool one = share() >= model.zeros();
     if (one)
@@ -222,29 +262,20 @@ class RansReader {
     return value;
   }
 
-  /// All bytes are used up, none too many, and the coder is where the writer began. False for
-  /// nearly all bytes that no writer made.
-  bool complete() const;
-  /// Bytes were missing: what was read since is made up.
-  bool overrun() const { return overrun_; }
-
  private:
   std::uint32_t raw_step(unsigned bits) {
     const std::uint32_t part = share() >> (kShareBits - bits);
     take(part << (kShareBits - bits), 1u << (kShareBits - bits));
     return part;
   }
-  std::uint32_t share() const { return state_ & (kShares - 1); }
   void take(std::uint32_t start, std::uint32_t shares) {
-    state_ = shares * (state_ >> kShareBits) + share() - start;
-    if (state_ < (1u << 16)) state_ = state_ << 16 | word();
+    tally_.add(shares);
+    RansState::take(start, shares);
   }
-  std::uint32_t word();
 
-  ByteView bytes_;
-  std::size_t at_ = 0;
-  std::uint32_t state_ = 0;
-  bool overrun_ = false;
+  [[no_unique_address]] Tally tally_;
 };
+
+using RansReader = TallyingReader<NoTally>;
 
 }  // namespace pstrips::inline formats

@@ -15,6 +15,7 @@ Result<void> code_any(Coder& coder, SplitState& state, Index vertex, std::size_t
                       GridSplit& split) {
   SplitModels& models = state.models;
   std::vector<Index> corners, neighbours;
+  coder.part(Part::connectivity);
   state.mesh.corners_of(vertex, corners);
   for (const Index corner : corners)
     for (const Index c : {StarMesh::next_in_face(corner), StarMesh::previous_in_face(corner)})
@@ -44,6 +45,7 @@ Result<void> code_any(Coder& coder, SplitState& state, Index vertex, std::size_t
     if (split.third[i] >= state.mesh.vertex_count() || split.third[i] == vertex)
       return broken(Fault::compact_face);
   }
+  coder.part(Part::positions);
   split.step.x = models.free_step[0].code(coder, split.step.x);
   split.step.y = models.free_step[1].code(coder, split.step.y);
   split.step.z = models.free_step[2].code(coder, split.step.z);
@@ -113,6 +115,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
                    [std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
                    [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)];
     state.is_new[vertex] = 0;
+    coder.part(Part::parents);
     if (!coder.bit(splits, wanted != nullptr)) continue;
     if (state.mesh.vertex_count() >= limits.vertices) return broken(Fault::compact_counts);
     if (wanted != nullptr) split = *wanted;

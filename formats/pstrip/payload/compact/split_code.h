@@ -25,6 +25,7 @@ void code_chord(Coder& coder, SplitState& state, const VertexRing& ring,
                 const RingGeometry& geometry, GridSplit& split) {
   constexpr unsigned kNoChord = SymbolModel::kSymbols - 1;
   SplitModels& models = state.models;
+  coder.part(Part::connectivity);
   const unsigned size = ring.size;
   const unsigned state_of_ring = size == 0 ? 2 : ring.open ? 1 : 0;
   SymbolModel& model = models.sector[state_of_ring][std::min(size, SplitModels::kRings - 1)];
@@ -56,9 +57,11 @@ void code_step(Coder& coder, SplitState& state, Index vertex, const VertexRing& 
     const std::int64_t off = Coder::kReads ? 0 : actual[k] - guessed;
     coded[k] = guessed + model.code(coder, static_cast<std::int32_t>(off), size);
   };
+  coder.part(Part::tangential);
   code(models.tangential[0], u, guess.across(u), geometry.extent(u));
   code(models.tangential[1], v, guess.across(v), geometry.extent(v));
   const std::int64_t height = guess.height(coded[u], coded[v]);
+  coder.part(Part::normal);
   code(models.normal, up, height, (geometry.length() + mean_normal_error(state, ring)) / 2);
 
   const std::int64_t off = coded[up] - height;

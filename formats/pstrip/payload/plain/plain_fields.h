@@ -87,7 +87,7 @@ void packet_array_fields(Io& io, const PacketHead& h, M& mesh, const PacketStart
   if (mesh.placement == Placement::optimal)
     io.run(mesh.parent_position, mesh.position.element_bytes(), start.vsplit, h.vsplits);
   io.align();
-  io.part(Part::wedges);
+  io.part(Part::attributes);
   for (auto& a : mesh.wedge_attributes) {
     io.run(a, start.wedges, h.wedges);
     io.align();
