@@ -10,13 +10,13 @@
 #include "cli/command.h"
 #include "cli/help.h"
 #include "cli/option_groups.h"
+#include "cli/part_table.h"
 #include "cli/report.h"
 #include "cli/table.h"
 #include "codecs/triangulate/triangulate.h"
 #include "converters/bounding_box.h"
 #include "converters/files.h"
 #include "formats/pstrip/container/chunks.h"
-#include "formats/pstrip/container/parts.h"
 
 namespace pstrips::cli {
 namespace {
@@ -34,8 +34,7 @@ struct Report {
   std::string file, format, profile, strips_encoding;
   std::uint64_t bytes = 0;
   Inspection metrics;
-  std::array<std::uint64_t, kPartGroups> part_bytes{};
-  bool has_parts = false;
+  PartTable parts;
   std::optional<MeshStatistics> statistics;  // of a plain model
   std::size_t meshes = 0, materials = 0, images = 0, nodes = 0;
   std::vector<std::string> attributes;
@@ -43,9 +42,8 @@ struct Report {
   bool complete = true;
   std::optional<Error> error;
 
-  double bits_per_vertex(std::uint64_t of) const {
-    return metrics.vertices ? 8.0 * static_cast<double>(of) / static_cast<double>(metrics.vertices)
-                            : 0;
+  double bits_per_vertex(double of) const {
+    return metrics.vertices ? 8 * of / static_cast<double>(metrics.vertices) : 0;
   }
 };
 
@@ -78,9 +76,8 @@ void add_scene(Report& report, const Scene& scene) {
   report.nodes = scene.nodes.size();
 }
 
-void add_strips(Report& report, const ProgressiveStrips& strips,
-                const std::vector<std::uint64_t>& ends) {
-  report.metrics = inspect(strips, ends);
+void add_strips(Report& report, const ProgressiveStrips& strips) {
+  report.metrics = inspect(strips, report.parts.ends());
   report.meshes = strips.meshes.size();
   report.complete = strips.complete;
   report.profile = name_of(strips.profile);
@@ -111,22 +108,6 @@ void add_model(Report& report, const Model& model) {
   }
 }
 
-// Bytes by part, and where the last base and each packet end.
-std::vector<std::uint64_t> add_chunks(Report& report, ByteView bytes, const Limits& limits) {
-  const ChunkList list = read_chunks(bytes);
-  std::vector<std::uint64_t> ends;
-  std::uint64_t base_end = 0;
-  for (const Chunk& chunk : list.chunks) {
-    if (chunk.type == kBaseChunk) base_end = chunk.offset + chunk.bytes();
-    if (chunk.type == kPacketChunk) ends.push_back(chunk.offset + chunk.bytes());
-  }
-  ends.insert(ends.begin(), base_end);
-  for (const PartSpan& span : list_parts(list, limits))
-    report.part_bytes[static_cast<std::size_t>(group_of(span.part))] += span.bytes;
-  report.has_parts = true;
-  return ends;
-}
-
 Report make_report(const Options& options) {
   Report report;
   report.file = options.input;
@@ -138,14 +119,14 @@ Report make_report(const Options& options) {
   report.bytes = bytes->view().size();
   const auto format = detect_format(bytes->view(), options.input);
   if (format) report.format = name_of(*format);
-  std::vector<std::uint64_t> ends;
-  if (format == FileFormat::pstrip) ends = add_chunks(report, bytes->view(), options.limits.limits);
+  if (format == FileFormat::pstrip)
+    report.parts = PartTable(read_chunks(bytes->view()), options.limits.limits);
   auto file = load(*bytes, options.input,
                    {.limits = options.limits.limits, .allow_prefix = true, .text_options = {}});
   if (!file)
     report.error = file.error();
   else if (file->is_progressive())
-    add_strips(report, std::get<ProgressiveStrips>(file->content), ends);
+    add_strips(report, std::get<ProgressiveStrips>(file->content));
   else
     add_model(report, std::get<Model>(file->content));
   return report;
@@ -181,7 +162,8 @@ void print_totals(std::ostream& out, const Report& r) {
   if (r.images) add("images", r.images);
   if (r.nodes) add("nodes", r.nodes);
   add("bytes", r.bytes);
-  table.add({"bits per vertex", fmt::format("{:.1f}", r.bits_per_vertex(r.bytes))});
+  table.add(
+      {"bits per vertex", fmt::format("{:.1f}", r.bits_per_vertex(static_cast<double>(r.bytes)))});
   table.print(out);
 }
 
@@ -192,17 +174,6 @@ void print_box(std::ostream& out, const BoundingBox& box) {
     out << fmt::format("{} from {} to {}\n", kAxes[axis], four_digits(box.min[axis]),
                        four_digits(box.max[axis]));
   out << "diagonal " << four_digits(box.diagonal()) << "\n";
-}
-
-void print_parts(std::ostream& out, const Report& r) {
-  Table table({"part", "bytes", "bits per vertex", "% of file"});
-  const auto all = static_cast<double>(std::max<std::uint64_t>(r.bytes, 1));
-  for (std::size_t g = 0; g < kPartGroups; ++g)
-    table.add({std::string(name_of(static_cast<PartGroup>(g)).label), grouped(r.part_bytes[g]),
-               fmt::format("{:.2f}", r.bits_per_vertex(r.part_bytes[g])),
-               fmt::format("{:.1f}", 100.0 * static_cast<double>(r.part_bytes[g]) / all)});
-  out << "\n";
-  table.print(out);
 }
 
 void print_levels(std::ostream& out, const Report& r) {
@@ -237,7 +208,10 @@ void print_text(std::ostream& out, const Report& r) {
   print_box(out, r.box);
   if (r.statistics) print_mesh_statistics(out, *r.statistics, false);
   for (const std::string& a : r.attributes) out << "attribute " << escaped(a) << "\n";
-  if (r.has_parts) print_parts(out, r);
+  if (!r.parts.empty()) {
+    out << "\n";
+    r.parts.print(out, r.metrics);
+  }
   if (!r.metrics.levels.empty()) print_levels(out, r);
   if (!r.metrics.strip_lengths.empty()) print_strip_lengths(out, r.metrics.strip_lengths);
 }
@@ -260,15 +234,25 @@ Json box_json(const BoundingBox& box) {
 
 Json parts_json(const Report& r) {
   Json json = Json::object();
-  for (std::size_t g = 0; r.has_parts && g < kPartGroups; ++g)
+  for (std::size_t g = 0; !r.parts.empty() && g < kPartGroups; ++g) {
+    const double bits = r.parts.all()[g];
     json[std::string(name_of(static_cast<PartGroup>(g)).key)] = {
-        {"bytes", r.part_bytes[g]}, {"bits_per_vertex", r.bits_per_vertex(r.part_bytes[g])}};
+        {"bits", bits}, {"bytes", bits / 8}, {"bits_per_vertex", r.bits_per_vertex(bits / 8)}};
+  }
   return json;
 }
 
-Json levels_json(const std::vector<InspectedLevel>& levels) {
+Json packet_json(const PartTable& parts, std::size_t packet) {
+  if (packet >= parts.packets().size()) return nullptr;
+  Json json = Json::object();
+  for (std::size_t g = 0; g < kPartGroups; ++g)
+    json[std::string(name_of(static_cast<PartGroup>(g)).key)] = parts.packets()[packet][g];
+  return json;
+}
+
+Json levels_json(const Report& r) {
   Json json = Json::array();
-  for (const InspectedLevel& l : levels)
+  for (const InspectedLevel& l : r.metrics.levels) {
     json.push_back({{"packet", l.packet},
                     {"mesh", l.mesh},
                     {"bytes_so_far", l.bytes_so_far},
@@ -278,6 +262,8 @@ Json levels_json(const std::vector<InspectedLevel>& levels) {
                     {"vertices_sent", l.vertices_sent},
                     {"error", l.error},
                     {"one_sided_error", l.one_sided_error}});
+    json.back()["bits"] = packet_json(r.parts, l.packet);
+  }
   return json;
 }
 
@@ -312,9 +298,9 @@ void print_json(std::ostream& out, const Report& r) {
   for (const std::string& a : r.attributes) json["attributes"].push_back(escaped(a));
   json["survey"] = r.statistics ? statistics_json(*r.statistics) : Json();
   json["bytes"] = r.bytes;
-  json["bits_per_vertex"] = r.bits_per_vertex(r.bytes);
+  json["bits_per_vertex"] = r.bits_per_vertex(static_cast<double>(r.bytes));
   json["parts"] = parts_json(r);
-  json["packets"] = levels_json(r.metrics.levels);
+  json["packets"] = levels_json(r);
   json["strip_lengths"] = Json::array();
   for (std::size_t bin = 0; bin < r.metrics.strip_lengths.size(); ++bin)
     json["strip_lengths"].push_back(

@@ -62,7 +62,7 @@ class Reports(ProgramTest):
             self.assertEqual(reports["validate"][1]["issues"], [])
             self.assertTrue(reports["validate"][1]["valid"])
         parts = self.report("inspect", "good.pstrip")["parts"]
-        self.assertEqual(sum(p["bytes"] for p in parts.values()), len(self.golden))
+        self.assertEqual(sum(p["bits"] for p in parts.values()), 8 * len(self.golden))
         self.assertEqual(self.report("compare", "tube.obj", "tube.obj")["result"], "exact")
         self.assertEqual(self.report("compare", "good.pstrip", "good.pstripx")["result"], "exact")
 

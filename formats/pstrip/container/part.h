@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
 
 namespace pstrips::inline formats {
@@ -88,6 +90,9 @@ inline constexpr PartDescription kParts[] = {
     {Part::foreign, "foreign", PartGroup::scene},
     {Part::unknown, "unknown", PartGroup::scene},
 };
+
+/// Bits of each part.
+using PartBits = std::array<double, std::size(kParts)>;
 
 constexpr std::string_view name_of(Part part) {
   return kParts[static_cast<std::size_t>(part)].name;

@@ -106,7 +106,7 @@ bool PayloadDecoder::read_header(ReadIo& io) {
       (h.file_bytes < chunk_->offset + chunk_->bytes() || h.base_end > h.file_bytes))
     return refuse(Fault::file_bytes);
   strips_.profile = *profile;
-  geometry_ = codec_of(*profile).reader(h);
+  geometry_ = make_reader_ ? make_reader_(*profile, h) : codec_of(*profile).reader(h);
   header_ = h;
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,6 +30,12 @@ class PayloadDecoder {
       : limits_(limits), checks_(checks), faults_(faults), file_bytes_(file_bytes) {
     strips_.complete = false;
   }
+
+  using MakeReader =
+      std::function<std::unique_ptr<GeometryReader>(Profile profile, const FileHeader& header)>;
+  /// Has BASE and PCKT read by another reader than that of the profile.
+  /// Precondition: no chunk was decoded yet.
+  void use_reader(MakeReader make) { make_reader_ = std::move(make); }
 
   /// Takes the next chunk. False when it is refused; then no more may follow.
   /// Precondition: its frame is sound and the order of chunks holds.
@@ -88,6 +95,7 @@ class PayloadDecoder {
   std::vector<IndexRow> rows_;
   std::vector<layout::MeshCounts> counts_;
   std::vector<std::uint8_t> embedded_;
+  MakeReader make_reader_;
   std::unique_ptr<GeometryReader> geometry_;
   std::vector<PacketStart> reached_;  ///< per mesh, where its next packet starts
   std::vector<Index> fine_;           ///< meshes that are complete, ascending

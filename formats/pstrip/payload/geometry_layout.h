@@ -9,6 +9,7 @@
 #include "core/result.h"
 #include "formats/pstrip/container/chunks.h"
 #include "formats/pstrip/container/part.h"
+#include "formats/pstrip/payload/geometry.h"
 
 namespace pstrips::inline formats {
 
@@ -42,6 +43,13 @@ class GeometryLayout {
   /// strips  outlives the writer
   /// errors  what this profile cannot hold
   virtual Result<std::unique_ptr<GeometryWriter>> writer(const ProgressiveStrips& strips) const = 0;
+
+  /// A reader of one file that adds to `bits` what the codes of each chunk take, by part. One that
+  /// adds nothing will do where all of them are whole bytes.
+  ///
+  /// bits  outlives the reader
+  virtual std::unique_ptr<GeometryReader> counting_reader(const FileHeader& header,
+                                                          PartBits& bits) const = 0;
 
   /// Which bytes of the payload of a BASE or PCKT belong to what: marks ascending from 0. Empty
   /// when the payload does not fit its own counts.

@@ -1,8 +1,10 @@
 #include <optional>
 
 #include "formats/pstrip/container/chunk_table.h"
+#include "formats/pstrip/payload/compact/bit_tally.h"
 #include "formats/pstrip/payload/compact/compact.h"
 #include "formats/pstrip/payload/compact/compact_fields.h"
+#include "formats/pstrip/payload/compact/compact_reader.h"
 #include "formats/pstrip/payload/compact/packet_code.h"
 #include "formats/pstrip/payload/compact/split_finder.h"
 
@@ -263,6 +265,11 @@ class CompactLayout final : public GeometryLayout {
  public:
   Result<std::unique_ptr<GeometryWriter>> writer(const ProgressiveStrips& strips) const override {
     return CompactWriter::make(strips);
+  }
+
+  std::unique_ptr<GeometryReader> counting_reader(const FileHeader& header,
+                                                  PartBits& bits) const override {
+    return std::make_unique<CompactReader<BitTally>>(header, BitTally(bits));
   }
 
   std::vector<PartMark> parts(const Chunk& chunk, std::span<const ProgressiveMesh>) const override {

@@ -85,6 +85,10 @@ class PlainLayout final : public GeometryLayout {
   Result<std::unique_ptr<GeometryWriter>> writer(const ProgressiveStrips& strips) const override {
     return std::make_unique<PlainWriter>(strips);
   }
+  std::unique_ptr<GeometryReader> counting_reader(const FileHeader& header,
+                                                  PartBits&) const override {
+    return plain_codec().reader(header);
+  }
   std::vector<PartMark> parts(const Chunk& chunk,
                               std::span<const ProgressiveMesh> meshes) const override {
     return chunk.type == kBaseChunk ? parts_of<BaseHead>(chunk, meshes)
