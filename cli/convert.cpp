@@ -11,6 +11,7 @@
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "converters/placement.h"
 #include "core/parallel.h"
 
 namespace pstrips::cli {
@@ -24,6 +25,7 @@ struct Options {
   OutputOption output;
   EncodeOptionsGroup encode;
   LevelOptions level;
+  PlacingOption placing;
   LimitOptions limits;
 };
 
@@ -35,6 +37,7 @@ struct Conversion {
   EncodeOptions encode;
   ProgressBar bar{io};
   std::vector<SimplifyReport> simplified{};
+  std::vector<std::string> converted{}, dropped{};  ///< before the writer saw the model
 };
 
 std::string counts_of(const ConstraintCounts& counts) {
@@ -105,8 +108,11 @@ Result<void> check_target(const Options& options, FileFormat target) {
 // Strips to strips of one profile keeps the records; anything else goes through the mesh.
 bool keeps_records(const Options& options, const LoadedFile& file, FileFormat target) {
   if (!file.is_progressive() || !is_progressive(target)) return false;
+  const auto& strips = std::get<ProgressiveStrips>(file.content);
+  const bool moves = options.placing.transforms() && !holds(target, Feature::nodes);
+  if (moves && !is_placed(strips.scene, strips.meshes.size()).value_or(false)) return false;
   return !options.level.given() && options.attributes.empty() &&
-         !options.encode.asks_for_another(std::get<ProgressiveStrips>(file.content).profile);
+         !options.encode.asks_for_another(strips.profile);
 }
 
 Result<void> check_input(const Options& options, const LoadedFile& file, FileFormat target) {
@@ -151,6 +157,14 @@ Result<Model> model_of(Conversion& job, LoadedFile file) {
   return model;
 }
 
+// In a format that has levels but no nodes.
+Result<Model> placed_model(Conversion& job, Model model) {
+  if (!job.options.placing.transforms() || holds(job.target, Feature::nodes)) return model;
+  auto placed = place_meshes(model, job.options.limits.limits, job.converted, job.dropped);
+  if (!placed) return tl::unexpected(std::move(placed).error());
+  return *placed ? std::move(**placed) : std::move(model);
+}
+
 // Encodes and, at the same time, looks for what is unusual about the model.
 Result<ProgressiveStrips> strips_of(Conversion& job, const Model& model) {
   const bool reports = !job.io.quiet && !job.options.output.is_stdout();
@@ -173,6 +187,8 @@ Result<SavedFiles> save_model(const Conversion& job, const Model& model) {
               {.ascii = job.options.ascii,
                .strips = job.options.gltf_strips,
                .threads = job.options.limits.limits.threads,
+               .transforms = job.options.placing.transforms(),
+               .limits = job.options.limits.limits,
                .replace_companions = job.options.output.force});
 }
 
@@ -182,8 +198,11 @@ Result<SavedFiles> save_records(const Conversion& job, ProgressiveStrips& strips
 }
 
 ExitCode finish(const Conversion& job, std::uint64_t input_bytes, const Result<SavedFiles>& saved) {
-  const auto& [options, io, target, encode, bar, simplified] = job;
+  const auto& [options, io, target, encode, bar, simplified, converted, dropped] = job;
   if (!saved) return report_unsaved(io, saved.error(), options.output);
+  note(io, options.output.path, converted, "converted");
+  note(io, options.output.path, saved->converted, "converted");
+  note(io, options.output.path, dropped);
   note(io, options.output.path, saved->notes);
   list_written(io, saved->files,
                fmt::format("{} ({}) ->", escaped(options.input), byte_size(input_bytes)));
@@ -198,10 +217,12 @@ ExitCode convert(Conversion& job, LoadedFile file) {
   const std::uint64_t bytes = file.bytes;
   if (keeps_records(options, file, job.target))
     return finish(job, bytes, save_records(job, std::get<ProgressiveStrips>(file.content)));
-  const auto model = model_of(job, std::move(file));
+  auto model = model_of(job, std::move(file));
   if (!model) return report(job.io, model.error(), options.input);
   if (!is_progressive(job.target)) return finish(job, bytes, save_model(job, *model));
-  const auto strips = strips_of(job, *model);
+  const auto placed = placed_model(job, std::move(*model));
+  if (!placed) return report(job.io, placed.error(), options.input);
+  const auto strips = strips_of(job, *placed);
   if (!strips) return report(job.io, strips.error(), options.input);
   return finish(job, bytes, save(*strips, options.output.path, job.target));
 }
@@ -209,7 +230,8 @@ ExitCode convert(Conversion& job, LoadedFile file) {
 ExitCode run(const Options& options, const Streams& io) {
   const auto target = options.output.format();
   if (!target) return report(io, target.error());
-  for (const auto& fits : {options.output.check({options.input}), check_target(options, *target)})
+  for (const auto& fits : {options.output.check({options.input}), check_target(options, *target),
+                           options.placing.check(*target)})
     if (!fits) return report(io, fits.error());
   auto encode_options = options.encode.get();
   if (!encode_options) return report(io, encode_options.error());
@@ -248,6 +270,7 @@ Command add_convert(CLI::App& root) {
                 "Accept a binary progressive file that ends early, as far as it goes");
   options->encode.add_to(*app);
   options->level.add_to(*app);
+  options->placing.add_to(*app);
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};
 }

@@ -18,6 +18,7 @@ struct Options {
   bool cut = false;
   OutputOption output;
   LevelOptions level;
+  PlacingOption placing;
   LimitOptions limits;
 };
 
@@ -45,8 +46,8 @@ void report_level(const Streams& io, const Options& options, const ProgressiveSt
 ExitCode run(const Options& options, const Streams& io) {
   const auto target = options.output.format();
   if (!target) return report(io, target.error());
-  if (const auto fits = options.output.check({options.input}); !fits)
-    return report(io, fits.error());
+  for (const auto& fits : {options.output.check({options.input}), options.placing.check(*target)})
+    if (!fits) return report(io, fits.error());
   if (options.cut && !is_progressive(*target))
     return report(io, {ErrorCode::bad_argument, "--cut writes pstrip, pstripx or pm"},
                   options.output.path);
@@ -61,10 +62,13 @@ ExitCode run(const Options& options, const Streams& io) {
   } else {
     const auto model = decode(*strips, packets);
     if (!model) return report(io, model.error(), options.input);
-    saved =
-        save(*model, options.output.path, *target, {.replace_companions = options.output.force});
+    saved = save(*model, options.output.path, *target,
+                 {.transforms = options.placing.transforms(),
+                  .limits = options.limits.limits,
+                  .replace_companions = options.output.force});
   }
   if (!saved) return report_unsaved(io, saved.error(), options.output);
+  note(io, options.output.path, saved->converted, "converted");
   note(io, options.output.path, saved->notes);
   report_level(io, options, *strips, packets);
   list_written(io, saved->files);
@@ -80,6 +84,7 @@ Command add_extract(CLI::App& root) {
   options->output.add_to(*app);
   app->add_flag("--cut", options->cut, "Make a shorter progressive file instead of a mesh");
   options->level.add_to(*app);
+  options->placing.add_to(*app);
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};
 }

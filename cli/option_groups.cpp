@@ -71,6 +71,18 @@ void LevelOptions::add_to(CLI::App& app) {
   for (auto* option : {by_packets, by_triangles, by_error}) option->group(kLevelGroup);
 }
 
+void PlacingOption::add_to(CLI::App& app) {
+  app.add_flag("--no-transforms", keeps_local,
+               "Keep meshes where they stand in the input instead of where its nodes put them, in "
+               "formats without nodes");
+}
+
+Result<void> PlacingOption::check(FileFormat target) const {
+  if (!keeps_local || !holds(target, Feature::nodes)) return {};
+  return fail(ErrorCode::bad_argument,
+              fmt::format("--no-transforms does nothing for a {} file", name_of(target)));
+}
+
 namespace {
 
 std::uint64_t triangles_of(const ProgressiveStrips& strips) {

@@ -13,6 +13,7 @@
 #include "codecs/stripify/stripify.h"
 #include "converters/decode.h"
 #include "converters/encode.h"
+#include "converters/file_formats.h"
 #include "core/limits.h"
 #include "core/profile.h"
 
@@ -51,6 +52,15 @@ struct LevelOptions {
   ///
   /// errors  bad_argument for a level that the file does not have; as decode()
   Result<LevelChoice> choice(const ProgressiveStrips& strips) const;
+};
+
+/// --no-transforms: meshes stay where they stand in the file.
+struct PlacingOption {
+  bool keeps_local = false;
+  void add_to(CLI::App& app);
+  bool transforms() const { return !keeps_local; }
+  /// errors  bad_argument for a format that has nodes, where the option does nothing
+  Result<void> check(FileFormat target) const;
 };
 
 /// True from `seconds` after the call on, and then notes it in `*was_cut`; empty for 0 seconds.

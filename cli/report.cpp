@@ -80,10 +80,11 @@ ExitCode report(const Streams& io, const Error& error, std::string_view file) {
   return exit_code(error.code);
 }
 
-void note(const Streams& io, std::string_view file, const std::vector<std::string>& notes) {
+void note(const Streams& io, std::string_view file, const std::vector<std::string>& notes,
+          std::string_view outcome) {
   if (io.quiet) return;
   for (const std::string& text : notes)
-    io.err << "pstrips: " << escaped(file) << ": left out: " << escaped(text) << "\n";
+    io.err << "pstrips: " << escaped(file) << ": " << outcome << ": " << escaped(text) << "\n";
 }
 
 }  // namespace pstrips::cli

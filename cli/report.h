@@ -26,6 +26,7 @@ Json json_of(const Error& error) {
 }
 
 /// Notes on standard error, unless quiet: "pstrips: FILE: left out: …".
-void note(const Streams& io, std::string_view file, const std::vector<std::string>& notes);
+void note(const Streams& io, std::string_view file, const std::vector<std::string>& notes,
+          std::string_view outcome = "left out");
 
 }  // namespace pstrips::cli

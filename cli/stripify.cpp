@@ -146,6 +146,7 @@ Result<SavedFiles> save_strips(Model model, const std::vector<StripMap>& maps, b
                .joined_strips = options.join,
                .strip_swaps = true,
                .threads = options.limits.limits.threads,
+               .limits = options.limits.limits,
                .replace_companions = options.output.force});
 }
 
@@ -184,6 +185,7 @@ ExitCode stripify_model(Model model, const Options& options, const StripOptions&
   if (output.given()) {
     const auto saved = save_strips(std::move(model), maps, takes_points, *target, options);
     if (!saved) return report_unsaved(io, saved.error(), output);
+    note(io, output.path, saved->converted, "converted");
     note(io, output.path, saved->notes);
     list_written(io, saved->files);
   }

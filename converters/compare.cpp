@@ -7,6 +7,7 @@
 #include "codecs/measure/measure.h"
 #include "codecs/triangulate/triangulate.h"
 #include "converters/merge.h"
+#include "converters/placement.h"
 #include "core/equal_elements.h"
 #include "core/group_by.h"
 
@@ -256,6 +257,28 @@ Model one_mesh(const Model& model) {
   return merge_meshes(model, notes);
 }
 
+// Of trees of the same shape; others are compared by where they put the meshes alone.
+void name_moved_nodes(const std::vector<Node>& a, const std::vector<Node>& b,
+                      std::vector<std::string>& differences) {
+  const auto same_shape = [](const Node& x, const Node& y) {
+    return x.parent == y.parent && x.meshes == y.meshes;
+  };
+  if (!std::ranges::equal(a, b, same_shape)) return;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].matrix != b[i].matrix)
+      differences.push_back("node " + std::to_string(i) +
+                            (a[i].name.empty() ? "" : " (" + a[i].name + ")") + ": moved");
+}
+
+// The model as its nodes place it, where that is not how its meshes stand.
+std::optional<Model> placed(const Model& model, std::vector<std::string>& differences) {
+  std::vector<std::string> converted, dropped;
+  auto out = place_meshes(model, Limits{}, converted, dropped);
+  if (out) return std::move(*out);
+  differences.push_back("nodes cannot be placed: " + out.error().message);
+  return std::nullopt;
+}
+
 // What the distance measure takes: vertices and triangles without wedges.
 struct Soup {
   std::vector<double> positions;
@@ -271,11 +294,20 @@ Soup soup_of(const Mesh& mesh) {
 
 }  // namespace
 
-Comparison compare(const Model& a, const Model& b, std::size_t samples) {
+Comparison compare(const Model& given_a, const Model& given_b, std::size_t samples) {
   Comparison out;
   out.equivalence = Equivalence::exact;
-  out.scenes_equal = a.scene.materials == b.scene.materials && a.scene.images == b.scene.images &&
-                     a.scene.nodes == b.scene.nodes;
+  out.scenes_equal = given_a.scene.materials == given_b.scene.materials &&
+                     given_a.scene.images == given_b.scene.images &&
+                     given_a.scene.nodes == given_b.scene.nodes;
+  std::optional<Model> placed_a, placed_b;
+  if (given_a.scene.nodes != given_b.scene.nodes) {
+    placed_a = placed(given_a, out.differences);
+    placed_b = placed(given_b, out.differences);
+    name_moved_nodes(given_a.scene.nodes, given_b.scene.nodes, out.differences);
+  }
+  if (!out.differences.empty()) out.equivalence = Equivalence::different;
+  const Model &a = placed_a ? *placed_a : given_a, &b = placed_b ? *placed_b : given_b;
   Model all_a, all_b;
   const bool paired = a.meshes.size() == b.meshes.size();
   if (paired) {

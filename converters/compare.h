@@ -32,7 +32,8 @@ struct Comparison {
   double rms = 0;
 };
 
-/// Compares the meshes of two models. Values are compared as numbers, bit for bit once widened to
+/// Compares the meshes of two models, where their nodes place them: instances count as copies
+/// (place_meshes()). Values are compared as numbers, bit for bit once widened to
 /// double, so that component types may differ. Meshes are paired in order; when their numbers
 /// differ, each model's meshes count as one.
 ///

@@ -33,7 +33,8 @@ struct FileSet {
     WriteBytes write = {};  ///< when set, instead of `bytes`
   };
   std::vector<File> files;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes;      ///< what was left out
+  std::vector<std::string> converted;  ///< what became something else
 };
 
 Result<FileSet> make_ply(const Model& model, const OutputName& name, const SaveOptions& options);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "converters/file_io.h"
+#include "converters/placement.h"
 #include "formats/medit/medit.h"
 
 namespace pstrips::inline converters {
@@ -50,6 +51,7 @@ Result<SavedFiles> write(Result<FileSet> set, bool replace_companions) {
     if (const auto free = check_companions(*set); !free) return tl::unexpected(free.error());
   SavedFiles out;
   out.notes = std::move(set->notes);
+  out.converted = std::move(set->converted);
   std::vector<OutputFile> views;
   for (const FileSet::File& file : set->files) out.files.push_back({file.path, file.bytes.size()});
   for (std::size_t i = 0; i < set->files.size(); ++i) {
@@ -118,8 +120,18 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
                         const SaveOptions& options) {
   const FileFormatRow& row = row_of(format);
   if (!row.write_model) return not_written(format, "a model");
-  return write(row.write_model(model, output_name(path, format), options),
-               options.replace_companions);
+  std::vector<std::string> converted, dropped;
+  std::optional<Model> placed;
+  if (options.transforms && !row.holds.has(Feature::nodes)) {
+    auto result = place_meshes(model, options.limits, converted, dropped);
+    if (!result) return tl::unexpected(std::move(result).error());
+    placed = std::move(*result);
+  }
+  auto set = row.write_model(placed ? *placed : model, output_name(path, format), options);
+  if (!set) return tl::unexpected(std::move(set).error());
+  set->converted.insert(set->converted.begin(), converted.begin(), converted.end());
+  set->notes.insert(set->notes.begin(), dropped.begin(), dropped.end());
+  return write(std::move(set), options.replace_companions);
 }
 
 Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path,

@@ -57,6 +57,8 @@ struct SaveOptions {
   bool joined_strips = false;  ///< glTF: one strip a group, its parts joined by repeated indices
   bool strip_swaps = false;    ///< glTF strips: they may turn by a repeated index
   unsigned threads = 0;        ///< see thread_count(); the bytes are the same
+  bool transforms = true;      ///< apply nodes where the format has none, see place_meshes()
+  Limits limits;               ///< what the copies that nodes make may take
   /// Whether files beside the output, which the caller did not name, may be replaced by others.
   bool replace_companions = true;
 };
@@ -70,6 +72,8 @@ struct SavedFile {
 struct SavedFiles {
   std::vector<SavedFile> files;    ///< all that were written, the named one first
   std::vector<std::string> notes;  ///< what the target format cannot hold
+  /// What it holds in another way, such as node transforms that became positions.
+  std::vector<std::string> converted;
 
   std::uint64_t bytes() const;  ///< of all files
 };

@@ -6,29 +6,6 @@
 namespace pstrips::inline formats::gltf {
 namespace {
 
-using Matrix = std::array<double, 16>;
-
-Matrix matrix_of(const std::array<double, 3>& t, const std::array<double, 4>& q,
-                 const std::array<double, 3>& s) {
-  const auto [x, y, z, w] = q;
-  return {s[0] * (1 - 2 * (y * y + z * z)),
-          s[0] * 2 * (x * y + z * w),
-          s[0] * 2 * (x * z - y * w),
-          0,
-          s[1] * 2 * (x * y - z * w),
-          s[1] * (1 - 2 * (x * x + z * z)),
-          s[1] * 2 * (y * z + x * w),
-          0,
-          s[2] * 2 * (x * z + y * w),
-          s[2] * 2 * (y * z - x * w),
-          s[2] * (1 - 2 * (x * x + y * y)),
-          0,
-          t[0],
-          t[1],
-          t[2],
-          1};
-}
-
 Node read_node(const Cursor& in, std::size_t meshes) {
   Node out;
   out.name = in.text("name");
@@ -64,6 +41,8 @@ class NodeReader {
       root["nodes"].fail(ErrorCode::corrupt, "nodes form a cycle");
   }
   std::vector<Node> take() && { return std::move(placed_); }
+  /// The number in the file of each.
+  const std::vector<Index>& sources() const { return sources_; }
 
  private:
   enum class State : std::uint8_t { unseen, on_path, left };
@@ -80,6 +59,7 @@ class NodeReader {
     state_[i] = State::on_path;
     path.push_back({i, static_cast<Index>(placed_.size())});
     placed_.push_back(nodes_[i]);
+    sources_.push_back(i);
     placed_.back().parent = parent;
   }
   void place_subtree(Index top) {
@@ -100,14 +80,39 @@ class NodeReader {
   const Cursor& root_;
   const Limits& limits_;
   std::vector<Node> nodes_, placed_;
+  std::vector<Index> sources_;
   std::vector<std::vector<Index>> children_;
   std::vector<State> state_;
 };
 
 }  // namespace
 
-std::vector<Node> read_nodes(const Cursor& root, std::size_t meshes, const Limits& limits) {
-  return NodeReader(root, meshes, limits).take();
+Matrix4 matrix_of(const std::array<double, 3>& t, const std::array<double, 4>& q,
+                  const std::array<double, 3>& s) {
+  const auto [x, y, z, w] = q;
+  return {s[0] * (1 - 2 * (y * y + z * z)),
+          s[0] * 2 * (x * y + z * w),
+          s[0] * 2 * (x * z - y * w),
+          0,
+          s[1] * 2 * (x * y - z * w),
+          s[1] * (1 - 2 * (x * x + z * z)),
+          s[1] * 2 * (y * z + x * w),
+          0,
+          s[2] * 2 * (x * z + y * w),
+          s[2] * 2 * (y * z - x * w),
+          s[2] * (1 - 2 * (x * x + y * y)),
+          0,
+          t[0],
+          t[1],
+          t[2],
+          1};
+}
+
+std::vector<Node> read_nodes(const Cursor& root, std::size_t meshes, const Limits& limits,
+                             std::vector<Index>* sources) {
+  NodeReader reader(root, meshes, limits);
+  if (sources) *sources = reader.sources();
+  return std::move(reader).take();
 }
 
 }  // namespace pstrips::inline formats::gltf
