@@ -20,6 +20,9 @@ Result<void> StreamDecoder::feed(ByteView bytes) {
     levels_[packet.mesh].refine(packet.vsplits);
     now_->add(packet);
   }
+  const std::span<const Index> completed = parser_.completed_meshes();
+  for (; completed_ < completed.size(); ++completed_)
+    levels_[completed[completed_]].reload_positions();
   return fed;
 }
 
@@ -31,9 +34,9 @@ StreamDecoder::Totals StreamDecoder::totals() const {
 }
 
 bool StreamDecoder::update() {
-  if (!now_ || updated_to_ == packets_) return false;
+  if (!now_ || updated_to_ == changes()) return false;
   for (DisplayLevel& level : levels_) level.update();
-  updated_to_ = packets_;
+  updated_to_ = changes();
   return true;
 }
 

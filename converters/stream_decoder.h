@@ -36,6 +36,8 @@ class StreamDecoder {
   /// What to answer when no more bytes come: truncated, or nothing when complete.
   std::optional<Error> end() const { return parser_.end(); }
   std::size_t packets() const { return packets_; }  ///< applied so far, of header()->packets
+  /// Grows with each change of what is shown.
+  std::size_t changes() const { return packets_ + completed_; }
   const std::optional<FileHeader>& header() const { return parser_.header(); }
   std::uint64_t bytes_taken() const { return parser_.bytes_taken(); }
   const ProgressiveStrips& strips() const { return parser_.strips(); }
@@ -49,8 +51,8 @@ class StreamDecoder {
   Totals totals() const;
 
   /// Filters the strips that have changed since the last call, or derives those of meshes that have
-  /// changed. True when there is something new to draw: once there is a base, and after each
-  /// packet.
+  /// changed. True when there is something new to draw: once there is a base, after each packet,
+  /// and when what follows them completes the numbers of a mesh.
   bool update();
   /// The level of a mesh and its display strips as of the last update().
   /// Precondition: has_base().
@@ -66,7 +68,8 @@ class StreamDecoder {
   std::deque<DisplayLevel> levels_;  // they do not move
   std::optional<SceneLevel> now_;    // from the last base on
   std::size_t packets_ = 0;
-  std::optional<std::size_t> updated_to_;  // packets; nothing before there is a base
+  std::size_t completed_ = 0;              // meshes whose numbers are
+  std::optional<std::size_t> updated_to_;  // changes(); nothing before there is a base
 };
 
 }  // namespace pstrips::inline converters

@@ -19,6 +19,8 @@ class DisplayLevel {
 
   /// Applies the next vsplits. O(entries rewritten); filters nothing yet.
   void refine(Index vsplits);
+  /// As Level's.
+  void reload_positions() { level_.reload_positions(); }
   const Level& level() const { return level_; }
 
   /// Filters what has changed since the last call; returns how many strips that were. O(what they

@@ -63,11 +63,19 @@ void permute(Attribute& attribute, std::span<const Index> to) {
 
 }  // namespace
 
-Level::Level(const ProgressiveMesh& mesh) : mesh_(&mesh), state_(mesh) {
-  if (mesh.placement != Placement::optimal) return;
-  const std::size_t bytes = mesh.position.element_bytes() * mesh.base_vertices;
-  const ByteView base = ByteView(mesh.position.data).first(bytes);
+Level::Level(const ProgressiveMesh& mesh) : mesh_(&mesh), state_(mesh) { place_base(); }
+
+void Level::place_base() {
+  if (mesh_->placement != Placement::optimal) return;
+  const std::size_t bytes = mesh_->position.element_bytes() * mesh_->base_vertices;
+  const ByteView base = ByteView(mesh_->position.data).first(bytes);
   moved_positions_.assign(base.begin(), base.end());
+}
+
+void Level::reload_positions() {
+  place_base();
+  if (mesh_->placement != Placement::optimal) return;
+  for (std::size_t i = 0; i < vsplits_done(); ++i) place(i);
 }
 
 void Level::refine(Index vsplits) {
@@ -75,7 +83,7 @@ void Level::refine(Index vsplits) {
   const std::size_t available = mesh_->vsplits.size() - next_.vsplit;
   for (std::size_t n = std::min<std::size_t>(vsplits, available); n > 0; --n) {
     const Vsplit& split = mesh_->vsplits[next_.vsplit];
-    if (moves) place(split, vertex_count());
+    if (moves) place(next_.vsplit);
     state_.grant_work(std::uint64_t{split.map_offsets} + split.reassigned);
     VsplitRecord record = record_at(*mesh_, next_);
     if (tracks_reassigned_ && !record.reassigned.empty()) reassign(record);
@@ -100,12 +108,14 @@ void Level::reassign(VsplitRecord& record) {
 }
 
 // Where the record's vertices stand after it.
-void Level::place(const Vsplit& split, Index vertex) {
+void Level::place(std::size_t vsplit) {
+  const Vsplit& split = mesh_->vsplits[vsplit];
+  const std::size_t vertex = mesh_->base_vertices + vsplit;
   const std::size_t bytes = mesh_->position.element_bytes();
   const ByteView born = mesh_->position.element(vertex);
   moved_positions_.insert(moved_positions_.end(), born.begin(), born.end());
   if (split.parent == vertex) return;
-  const ByteView parent = ByteView(mesh_->parent_position).subspan(next_.vsplit * bytes, bytes);
+  const ByteView parent = ByteView(mesh_->parent_position).subspan(vsplit * bytes, bytes);
   std::ranges::copy(parent,
                     moved_positions_.begin() + static_cast<std::ptrdiff_t>(split.parent * bytes));
 }

@@ -47,6 +47,8 @@ class Level {
   void refine(Index vsplits);
   /// Up to the last record the mesh has.
   void refine_fully() { refine(kNone); }
+  /// Takes the positions from the mesh anew, after a FINE chunk has completed them. O(level).
+  void reload_positions();
   /// From now on keeps the entries that come to show another vertex though no record writes them:
   /// those of reassigned wedges. A change then costs up to three times as much, in meshes that
   /// reassign wedges.
@@ -82,7 +84,8 @@ class Level {
   }
 
  private:
-  void place(const Vsplit& split, Index vertex);
+  void place_base();
+  void place(std::size_t vsplit);
   void reassign(VsplitRecord& record);
 
   const ProgressiveMesh* mesh_;

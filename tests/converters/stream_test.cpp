@@ -192,6 +192,27 @@ TEST(StreamDecoder, UpdatesOnceForTheBaseAndOnceForEachPacket) {
   EXPECT_EQ(drawn, s.ends.size());
 }
 
+// The bits below the cells stand behind the packets.
+TEST(StreamDecoder, UpdatesOnceMoreWhenNumbersAreCompleted) {
+  for (const Placement placement : {Placement::subset, Placement::optimal}) {
+    const Sample s = sample(test::model_of(test::torus(40, 20)),
+                            {.profile = Profile::compact, .placement = placement});
+    StreamDecoder decoder;
+    std::size_t updates = 0;
+    for (const std::byte byte : s.file) {
+      ASSERT_TRUE(decoder.feed({&byte, 1}));
+      if (decoder.update()) ++updates;
+    }
+    EXPECT_EQ(updates, 1 + s.strips.packets.size() + 1);
+    const Level whole = [&] {
+      Level level(s.strips.meshes[0]);
+      level.refine_fully();
+      return level;
+    }();
+    EXPECT_TRUE(std::ranges::equal(decoder.mesh(0).level().positions(), whole.positions()));
+  }
+}
+
 TEST(StreamDecoder, UpdatesForAFileWithoutPackets) {
   ProgressiveStrips base = cut(small_sample().strips, 0);
   ASSERT_TRUE(base.packets.empty());

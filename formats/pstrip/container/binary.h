@@ -67,6 +67,8 @@ class BinaryParser {
 
   /// Every BASE is there: level 0 can be shown.
   bool has_base() const;
+  /// Meshes of which a FINE chunk has completed the numbers, ascending.
+  std::span<const Index> completed_meshes() const;
   /// PEND is there.
   bool complete() const;
   const std::optional<Error>& error() const;

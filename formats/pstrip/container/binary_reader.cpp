@@ -46,6 +46,9 @@ Result<void> BinaryParser::feed(ByteView bytes) {
 const ProgressiveStrips& BinaryParser::strips() const { return state_->decoder.strips(); }
 ProgressiveStrips BinaryParser::take() && { return std::move(state_->decoder.strips()); }
 bool BinaryParser::has_base() const { return state_->decoder.has_base(); }
+std::span<const Index> BinaryParser::completed_meshes() const {
+  return state_->decoder.completed_meshes();
+}
 bool BinaryParser::complete() const { return state_->container.complete() && !state_->error; }
 const std::optional<Error>& BinaryParser::error() const { return state_->error; }
 

@@ -51,6 +51,8 @@ class PayloadDecoder {
   Index mesh() const { return mesh_; }
   /// Every BASE is there.
   bool has_base() const { return has_index_ && strips_.bases.size() == strips_.meshes.size(); }
+  /// Meshes of which a FINE chunk has completed the numbers, ascending.
+  std::span<const Index> completed_meshes() const { return fine_; }
 
  private:
   using ReadIo = layout::ReadIo;
