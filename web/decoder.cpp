@@ -1,65 +1,43 @@
 #include "web/decoder.h"
 
-#include <algorithm>
 #include <cstdlib>
-#include <new>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "converters/stream_decoder.h"
-#include "core/mesh.h"
-#include "core/strips.h"
-
-struct PstripsViewer {
-  pstrips::StreamDecoder decoder;
-  std::string error;
-  std::vector<float> positions;
-  std::vector<std::uint32_t> entries;
-};
+#include "web/mesh_arrays.h"
+#include "web/scene_words.h"
 
 namespace {
 
-using pstrips::Index;
-
-std::vector<float> positions_of(const pstrips::Level& level) {
-  pstrips::Attribute shown = level.mesh().position;
-  const pstrips::ByteView bytes = level.positions();
-  shown.data.assign(bytes.begin(), bytes.end());
-  std::vector<float> out(std::size_t{3} * level.vertex_count());
-  const std::size_t count = std::min<std::size_t>(shown.count, 3);
-  for (std::size_t i = 0; i < level.vertex_count(); ++i)
-    for (std::size_t c = 0; c < count; ++c)
-      out[3 * i + c] = static_cast<float>(pstrips::component(shown, i, c));
-  return out;
-}
-
-std::vector<Index> vertex_strips(const pstrips::DisplayLevel& shown) {
-  pstrips::DisplayStrips strips;
-  shown.append_display(strips);
-  for (Index& entry : strips)
-    if (entry != pstrips::kRestart) entry = shown.level().vertex_of(entry);
-  return strips;
-}
-
-std::vector<Index> triangles_of(std::span<const Index> strips) {
-  std::vector<Index> out;
-  pstrips::for_each_triangle(
-      strips, [](Index vertex) { return vertex; },
-      [&](Index a, Index b, Index c) {
-        out.insert(out.end(), {a, b, c});
-      });
-  return out;
+pstrips::Limits limits_of(double max_memory) {
+  pstrips::Limits limits;
+  limits.memory_bytes = static_cast<std::uint64_t>(max_memory);
+  return limits;
 }
 
 }  // namespace
+
+struct PstripsViewer {
+  PstripsViewer(double max_memory, bool strips)
+      : decoder(limits_of(max_memory)), keeps_strips(strips) {}
+
+  pstrips::StreamDecoder decoder;
+  bool keeps_strips;
+  std::vector<pstrips::MeshArrays> meshes;
+  std::optional<std::size_t> updated_to;  // changes
+  std::string error;
+  pstrips::Bytes scene;
+};
 
 void* pstrips_allocate(std::size_t bytes) { return std::malloc(bytes); }
 
 void pstrips_release(void* memory) { std::free(memory); }
 
-PstripsViewer* pstrips_open() { return new PstripsViewer; }
+PstripsViewer* pstrips_open(double max_memory, int keeps_strips) {
+  return new PstripsViewer(max_memory, keeps_strips != 0);
+}
 
 void pstrips_close(PstripsViewer* viewer) { delete viewer; }
 
@@ -73,36 +51,64 @@ const char* pstrips_error(PstripsViewer* viewer) {
   return viewer->error.c_str();
 }
 
-int pstrips_update(PstripsViewer* viewer) { return viewer->decoder.update() ? 1 : 0; }
+int pstrips_error_code(const PstripsViewer* viewer) {
+  const std::optional<pstrips::Error> error = viewer->decoder.end();
+  return error ? static_cast<int>(error->code) : -1;
+}
+
+double pstrips_error_offset(const PstripsViewer* viewer) {
+  const std::optional<pstrips::Error> error = viewer->decoder.end();
+  return error && error->offset != pstrips::kNoOffset ? static_cast<double>(error->offset) : -1;
+}
+
+int pstrips_update(PstripsViewer* viewer) {
+  pstrips::StreamDecoder& decoder = viewer->decoder;
+  if (!decoder.has_base() || viewer->updated_to == decoder.changes()) return 0;
+  if (viewer->keeps_strips) decoder.update();
+  viewer->meshes.resize(decoder.strips().meshes.size());
+  for (std::size_t i = 0; i < viewer->meshes.size(); ++i)
+    viewer->meshes[i].update(decoder.mesh(static_cast<pstrips::Index>(i)), viewer->keeps_strips);
+  viewer->updated_to = decoder.changes();
+  return 1;
+}
 
 std::uint32_t pstrips_packets(const PstripsViewer* viewer) {
   return static_cast<std::uint32_t>(viewer->decoder.packets());
 }
 
+double pstrips_vertices(const PstripsViewer* viewer) {
+  return static_cast<double>(viewer->decoder.totals().vertices);
+}
+
+double pstrips_triangles(const PstripsViewer* viewer) {
+  return static_cast<double>(viewer->decoder.totals().triangles);
+}
+
+double pstrips_distance(const PstripsViewer* viewer) { return viewer->decoder.totals().error; }
+
 std::uint32_t pstrips_meshes(const PstripsViewer* viewer) {
-  if (!viewer->decoder.has_base()) return 0;
-  return static_cast<std::uint32_t>(viewer->decoder.strips().meshes.size());
+  return static_cast<std::uint32_t>(viewer->meshes.size());
 }
 
-std::uint32_t pstrips_vertex_count(const PstripsViewer* viewer, std::uint32_t mesh) {
-  return viewer->decoder.mesh(mesh).level().vertex_count();
+const PstripsMesh* pstrips_mesh(const PstripsViewer* viewer, std::uint32_t mesh) {
+  return &viewer->meshes[mesh].mesh();
 }
 
-const float* pstrips_positions(PstripsViewer* viewer, std::uint32_t mesh) {
-  viewer->positions = positions_of(viewer->decoder.mesh(mesh).level());
-  return viewer->positions.data();
+const std::byte* pstrips_attribute(const PstripsViewer* viewer, std::uint32_t mesh,
+                                   std::uint32_t attribute) {
+  return viewer->decoder.strips().meshes[mesh].wedge_attributes[attribute].data.data();
 }
 
-const std::uint32_t* pstrips_strips(PstripsViewer* viewer, std::uint32_t mesh) {
-  viewer->entries = vertex_strips(viewer->decoder.mesh(mesh));
-  return viewer->entries.data();
+const std::byte* pstrips_scene(PstripsViewer* viewer) {
+  const auto& header = viewer->decoder.header();
+  viewer->scene = pstrips::scene_words(viewer->decoder.strips(), header ? header->packets : 0);
+  return viewer->scene.data();
 }
 
-const std::uint32_t* pstrips_triangles(PstripsViewer* viewer, std::uint32_t mesh) {
-  viewer->entries = triangles_of(vertex_strips(viewer->decoder.mesh(mesh)));
-  return viewer->entries.data();
+const std::byte* pstrips_image(const PstripsViewer* viewer, std::uint32_t image) {
+  return viewer->decoder.strips().scene.images[image].data.data();
 }
 
-std::uint32_t pstrips_entries(const PstripsViewer* viewer) {
-  return static_cast<std::uint32_t>(viewer->entries.size());
+std::uint32_t pstrips_image_bytes(const PstripsViewer* viewer, std::uint32_t image) {
+  return static_cast<std::uint32_t>(viewer->decoder.strips().scene.images[image].data.size());
 }

@@ -14,6 +14,10 @@
 namespace {
 
 constexpr std::size_t kSlice = 100;
+constexpr double kMemory = 1 << 30;
+// In the order of pstrips::ErrorCode.
+constexpr const char* kCodes[] = {"bad argument", "io",          "truncated",  "corrupt",
+                                  "over limit",   "unsupported", "interrupted"};
 
 void print(const char* name, std::span<const std::uint32_t> numbers) {
   std::fputs(name, stdout);
@@ -22,19 +26,30 @@ void print(const char* name, std::span<const std::uint32_t> numbers) {
   std::fputs("\n", stdout);
 }
 
-void print_level(PstripsViewer* viewer) {
+void print_level(const PstripsViewer* viewer) {
   std::printf("packets %u\n", static_cast<unsigned>(pstrips_packets(viewer)));
-  for (std::uint32_t mesh = 0; mesh < pstrips_meshes(viewer); ++mesh) {
-    const float* positions = pstrips_positions(viewer, mesh);
-    std::vector<std::uint32_t> bits(std::size_t{3} * pstrips_vertex_count(viewer, mesh));
-    std::transform(positions, positions + bits.size(), bits.begin(),
+  for (std::uint32_t i = 0; i < pstrips_meshes(viewer); ++i) {
+    const PstripsMesh& mesh = *pstrips_mesh(viewer, i);
+    std::vector<std::uint32_t> numbers(std::size_t{3} * mesh.wedges);
+    std::transform(mesh.positions, mesh.positions + numbers.size(), numbers.begin(),
                    [](float x) { return std::bit_cast<std::uint32_t>(x); });
-    print("positions ", bits);
-    const std::uint32_t* strips = pstrips_strips(viewer, mesh);
-    print("strips ", {strips, pstrips_entries(viewer)});
-    const std::uint32_t* triangles = pstrips_triangles(viewer, mesh);
-    print("triangles ", {triangles, pstrips_entries(viewer)});
+    print("positions ", numbers);
+    print("triangles ", {mesh.triangle_list, std::size_t{3} * mesh.triangles});
+    numbers.resize(mesh.groups);
+    for (std::size_t g = 0; g < mesh.groups; ++g)
+      numbers[g] = mesh.group_first[g + 1] - mesh.group_first[g];
+    print("groups ", numbers);
+    print("strips ", {mesh.strips, mesh.strip_entries});
   }
+}
+
+void print_end(PstripsViewer* viewer) {
+  const int code = pstrips_error_code(viewer);
+  if (code < 0)
+    std::printf("end \n");
+  else
+    std::printf("end %s %.0f %s\n", kCodes[code], pstrips_error_offset(viewer),
+                pstrips_error(viewer));
 }
 
 }  // namespace
@@ -44,13 +59,13 @@ int main(int argc, char** argv) {
     std::ifstream in(argv[i], std::ios::binary);
     const std::vector<char> file(std::istreambuf_iterator<char>(in), {});
     const std::span<const std::byte> bytes = std::as_bytes(std::span(file));
-    PstripsViewer* viewer = pstrips_open();
+    PstripsViewer* viewer = pstrips_open(kMemory, 1);
     for (std::size_t at = 0; at < bytes.size(); at += kSlice) {
       const std::size_t size = std::min(kSlice, bytes.size() - at);
       if (pstrips_feed(viewer, bytes.data() + at, size) != 0) break;
       if (pstrips_update(viewer) != 0) print_level(viewer);
     }
-    std::printf("end %s\n", pstrips_error(viewer));
+    print_end(viewer);
     pstrips_close(viewer);
   }
 }
