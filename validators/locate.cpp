@@ -156,15 +156,15 @@ class Locator {
       case Field::faces:
         return chunk(find(kFacesChunk));
       case Field::face_first:
-        return in_extra(FacesPayload{}, &mesh.faces.first, ", face ");
+        return in_faces(&mesh.faces.first, ", face ");
       case Field::face_corner:
-        return in_extra(FacesPayload{}, &mesh.faces.corners, ", corner ");
+        return in_faces(&mesh.faces.corners, ", corner ");
       case Field::face_group:
-        return in_extra(FacesPayload{}, &mesh.faces.group, ", group of face ");
+        return in_faces(&mesh.faces.group, ", group of face ");
       case Field::replaced_first:
-        return in_extra(FacesPayload{}, &mesh.faces.replaced_first, ", face ");
+        return in_faces(&mesh.faces.replaced_first, ", face ");
       case Field::replaced:
-        return in_extra(FacesPayload{}, &mesh.faces.replaced, ", replaced triangle ");
+        return in_faces(&mesh.faces.replaced, ", replaced triangle ");
       case Field::order:
         return chunk(find(kOrderChunk));
       case Field::order_vertex:
@@ -188,6 +188,11 @@ class Locator {
                   doc_.strips.profile);
     };
     return in_payload(find(kMeshChunk), position_of(target, fields), path);
+  }
+  /// Where they are coded, no element has bytes of its own.
+  Location in_faces(const void* list, const char* path) const {
+    if (doc_.strips.profile == Profile::plain) return in_extra(FacesPayload{}, list, path);
+    return in_payload(find(kFacesChunk), 0, numbered(path, where_.element));
   }
   Location in_base(const void* list, const char* path) const {
     return in_geometry(find(kBaseChunk), list, where_.element, numbered(path, where_.element));

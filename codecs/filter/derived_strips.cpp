@@ -4,14 +4,11 @@
 #include <array>
 #include <cassert>
 
+#include "core/edge_pairs.h"
 #include "core/group_by.h"
 
 namespace pstrips::inline codecs {
 namespace {
-
-// Half-edge h = 3 t + k runs from corner k of triangle t to the next corner.
-constexpr Index next_of(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-constexpr Index previous_of(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 struct Triangles {
   std::span<const Index> corners;
@@ -19,63 +16,11 @@ struct Triangles {
   Index wedge_count;
 };
 
-// The half-edge that each is paired with, or kNone. In the list of a wedge are the half-edges
-// between it and higher ones. Each is paired with the last one before it between the same wedges,
-// if that is not paired yet, of the same group, and runs the other way.
-class Pairing {
- public:
-  explicit Pairing(const Triangles& triangles)
-      : triangles_(triangles), opposite_(triangles.corners.size(), kNone) {}
-
-  std::vector<Index> run() {
-    const Grouped<Listed> of_lower = group_each<Listed>(triangles_.wedge_count, [&](auto&& visit) {
-      for (Index h = 0; h < triangles_.corners.size(); h += 3) {
-        const Index a = triangles_.corners[h], b = triangles_.corners[h + 1],
-                    c = triangles_.corners[h + 2];
-        visit(std::min(a, b), [&] { return Listed{std::max(a, b), h}; });
-        visit(std::min(b, c), [&] { return Listed{std::max(b, c), h + 1}; });
-        visit(std::min(c, a), [&] { return Listed{std::max(c, a), h + 2}; });
-      }
-    });
-    std::vector<Unpaired> last(
-        triangles_.wedge_count);  // in the lists so far, to each higher wedge
-    for (Index low = 0; low < of_lower.keys(); ++low)
-      for (const auto [high, h] : of_lower[low]) {
-        Unpaired& before = last[high];
-        if (before.low == low && can_pair(before.half_edge, h)) {
-          opposite_[h] = before.half_edge;
-          opposite_[before.half_edge] = h;
-          before.low = kNone;
-        } else {
-          before = {low, h};
-        }
-      }
-    return std::move(opposite_);
-  }
-
- private:
-  struct Listed {
-    Index high, half_edge;
-  };
-  struct Unpaired {
-    Index low = kNone, half_edge = kNone;
-  };
-
-  // Precondition: they are between the same wedges.
-  bool can_pair(Index a, Index b) const {
-    return triangles_.corners[a] != triangles_.corners[b] &&
-           (triangles_.group.empty() || triangles_.group[a / 3] == triangles_.group[b / 3]);
-  }
-
-  const Triangles& triangles_;
-  std::vector<Index> opposite_;
-};
-
 // How a triangle is left that was entered over a half-edge: over the next one or the previous one.
 enum Turn : std::uint8_t { kAfter, kBefore, kNoTurn };
 
 constexpr Index exit_of(Index entry, Turn turn) {
-  return turn == kAfter ? next_of(entry) : previous_of(entry);
+  return turn == kAfter ? next_half_edge(entry) : previous_half_edge(entry);
 }
 
 // A triangle of a spanning tree, with a child at either turn.
@@ -146,7 +91,7 @@ class Forest {
   Index next_child(Index node) {
     const Index entry = nodes_[node].entry;
     if (free_neighbors_[entry / 3] == kTaken) return 0;
-    const Index after = next_of(entry), before = previous_of(entry);
+    const Index after = next_half_edge(entry), before = previous_half_edge(entry);
     const bool has_after = is_free_over(after), has_before = is_free_over(before);
     if (!has_after && !has_before) return 0;  // but a root may have one over `entry`
     Turn turn = has_after ? kAfter : kBefore;
@@ -253,7 +198,7 @@ class StripMaker {
 
   // The first turn has to be kBefore, whichever end is the first.
   bool starts_with_swap() const {
-    return exits_.size() > 1 && exits_[1] != previous_of(opposite_[exits_[0]]);
+    return exits_.size() > 1 && exits_[1] != previous_half_edge(opposite_[exits_[0]]);
   }
 
   void write(Index triangle) {
@@ -267,8 +212,8 @@ class StripMaker {
       if (starts_with_swap()) reverse();
     }
     // The last two entries are the edge that the strip stands on.
-    Index older = corners_[exits_[0]], newer = corners_[next_of(exits_[0])];
-    out_.insert(out_.end(), {corners_[previous_of(exits_[0])], older, newer});
+    Index older = corners_[exits_[0]], newer = corners_[next_half_edge(exits_[0])];
+    out_.insert(out_.end(), {corners_[previous_half_edge(exits_[0])], older, newer});
     Turn straight = kBefore;
     for (std::size_t i = 0; i < exits_.size(); ++i) {
       const Index entry = opposite_[exits_[i]];
@@ -277,7 +222,7 @@ class StripMaker {
         std::swap(older, newer);
         straight = straight == kBefore ? kAfter : kBefore;
       }
-      out_.push_back(corners_[previous_of(entry)]);
+      out_.push_back(corners_[previous_half_edge(entry)]);
       older = std::exchange(newer, out_.back());
       straight = straight == kBefore ? kAfter : kBefore;
     }
@@ -308,7 +253,8 @@ DisplayStrips derive_strips(std::span<const Index> corners, std::span<const Inde
                             Index wedge_count) {
   assert(corners.size() % 3 == 0 && (group.empty() || group.size() == corners.size() / 3));
   const Triangles triangles{corners, group, wedge_count};
-  const std::vector<Index> opposite = Pairing(triangles).run();
+  const std::vector<Index> opposite =
+      pair_half_edges(triangles.corners, triangles.group, triangles.wedge_count);
   return StripMaker(corners, opposite).run();
 }
 

@@ -5,8 +5,10 @@
 #include <cassert>
 
 #include "codecs/vsplit/level.h"
+#include "core/edge_pairs.h"
 #include "core/gather.h"
 #include "core/group_by.h"
+#include "core/joined_faces.h"
 
 namespace pstrips::inline codecs {
 namespace {
@@ -85,58 +87,134 @@ void for_each_source_triangle(const Mesh& source, const StripMap& map, const Pro
   }
 }
 
+// The map's triangles in its order, in wedges of the source.
+struct MapTriangles {
+  std::vector<Index> corners, group;
+  std::vector<Index> from;  // which triangle of the source each is
+  std::vector<Index> of;    // where each triangle of the source went
+};
+
+MapTriangles map_triangles(const Mesh& source, const Triangulation& triangles,
+                           const StripMap& strips, const ProgressiveMesh& mesh) {
+  MapTriangles out;
+  out.of.resize(triangles.face.size());
+  TriangleFinder finder(source, triangles);
+  for_each_source_triangle(source, strips, mesh, [&](const Triple& corners, Index group) {
+    const Index from = finder.take(corners, group);
+    out.of[from] = static_cast<Index>(out.from.size());
+    out.from.push_back(from);
+    out.corners.insert(out.corners.end(), corners.begin(), corners.end());
+    out.group.push_back(group);
+  });
+  return out;
+}
+
+// The pieces of each face: from first[f] on to first[f + 1] among the source's triangles.
+std::vector<Index> first_pieces(const Triangulation& triangles, Index faces) {
+  std::vector<Index> first(faces + std::size_t{1}, 0);
+  for (const Index f : triangles.face) ++first[f + 1];
+  for (Index f = 0; f < faces; ++f) first[f + 1] += first[f];
+  return first;
+}
+
+// Puts the faces of a source into a table and notes their order.
+class FaceRecorder {
+ public:
+  FaceRecorder(const Mesh& source, const Triangulation& triangles, const MapTriangles& map,
+               FaceRecord& out)
+      : source_(source),
+        triangles_(triangles),
+        map_(map),
+        first_piece_(first_pieces(triangles, source.face_count())),
+        done_(source.face_count()),
+        out_(out) {}
+
+  // A face is plain when the strips hold it as it is: a triangle with three different vertices.
+  void take_plain() {
+    for (Index t = 0; t < map_.from.size(); ++t) {
+      const Index f = triangles_.face[map_.from[t]];
+      if (pieces(f) != 1 || source_.face(f).size() != 3) continue;
+      const auto corners = std::span(map_.corners).subspan(std::size_t{3} * t, 3);
+      const auto start = std::ranges::find(corners, source_.face(f)[0]);
+      note(f, static_cast<std::size_t>(start - corners.begin()));
+    }
+  }
+
+  // Polygons that are triangles joined over their edges: a file can say them by the joins.
+  void take_joined() {
+    const std::vector<Index> opposite =
+        pair_half_edges(map_.corners, map_.group, source_.wedge_count());
+    JoinedFaces joined(opposite);
+    std::vector<Index> turn(source_.face_count(), kNone), list;
+    for (Index f = 0; f < source_.face_count(); ++f) {
+      list.clear();
+      for (Index p = first_piece_[f]; p < first_piece_[f + 1]; ++p) list.push_back(map_.of[p]);
+      std::ranges::sort(list);
+      turn[f] = joined.join_turned(list, source_.face(f), map_.corners);
+    }
+    table() = joined.faces(map_.corners, map_.group);
+    for (Index i = 0; i < table().count(); ++i) {
+      const Index f = triangles_.face[map_.from[table().replaced[table().replaced_first[i]]]];
+      note(f, turn[f]);
+    }
+  }
+
+  // In source order.
+  void take_others() {
+    FaceTable& t = table();
+    for (std::vector<Index>* first : {&t.first, &t.replaced_first})
+      if (!first->empty()) first->pop_back();
+    for (Index f = 0; f < source_.face_count(); ++f) {
+      if (done_[f]) continue;
+      t.first.push_back(static_cast<Index>(t.corners.size()));
+      t.replaced_first.push_back(static_cast<Index>(t.replaced.size()));
+      const std::span<const Index> corners = source_.face(f);
+      t.corners.insert(t.corners.end(), corners.begin(), corners.end());
+      t.group.push_back(source_.group_of(f));
+      for (Index p = first_piece_[f]; p < first_piece_[f + 1]; ++p)
+        t.replaced.push_back(map_.of[p]);
+      note(f, 0);
+    }
+    if (t.first.empty()) return;
+    t.first.push_back(static_cast<Index>(t.corners.size()));
+    t.replaced_first.push_back(static_cast<Index>(t.replaced.size()));
+  }
+
+ private:
+  FaceTable& table() { return out_.faces; }
+  Index pieces(Index face) const { return first_piece_[face + 1] - first_piece_[face]; }
+  void note(Index face, std::size_t turn) {
+    done_[face] = true;
+    out_.order.face.push_back(face);
+    out_.order.rotation.push_back(static_cast<std::uint8_t>(turn));
+  }
+
+  const Mesh& source_;
+  const Triangulation& triangles_;
+  const MapTriangles& map_;
+  std::vector<Index> first_piece_;
+  std::vector<bool> done_;
+  FaceRecord& out_;
+};
+
 }  // namespace
 
 FaceRecord record_faces(const Mesh& source, const Triangulation& triangles, const StripMap& strips,
                         const Recording& recording, bool with_order) {
-  // A face is plain when the strips hold it as it is: a triangle with three different vertices.
-  const Index faces = source.face_count();
-  const bool all_plain = source.face_first.empty() && triangles.face.size() == faces;
+  const bool all_plain = source.face_first.empty() && triangles.face.size() == source.face_count();
   if (all_plain && source.face_attributes.empty() && !with_order) return {};
-  std::vector<Index> pieces(faces, 0);
-  for (const Index f : triangles.face) ++pieces[f];
-  const auto is_plain = [&](Index f) { return pieces[f] == 1 && source.face(f).size() == 3; };
-
-  // The map's triangles in its order.
   FaceRecord out;
-  TriangleFinder finder(source, triangles);
-  std::vector<Index> map_triangle(triangles.face.size());  // of each source triangle, in map order
-  Index t = 0;
-  for_each_source_triangle(source, strips, recording.mesh, [&](const Triple& corners, Index group) {
-    const Index from = finder.take(corners, group);
-    map_triangle[from] = t++;
-    const Index f = triangles.face[from];
-    if (!is_plain(f)) return;
-    out.order.face.push_back(f);
-    const Index start = source.face(f)[0];
-    out.order.rotation.push_back(
-        static_cast<std::uint8_t>(std::ranges::find(corners, start) - corners.begin()));
-  });
-
-  // Everything else, in source order.
+  const MapTriangles map = map_triangles(source, triangles, strips, recording.mesh);
+  FaceRecorder recorder(source, triangles, map, out);
+  recorder.take_plain();
+  if (!all_plain) {
+    recorder.take_joined();
+    recorder.take_others();
+  }
   const std::vector<Index> wedge_to = inverse(recording.wedge_from);
-  FaceTable& table = out.faces;
-  Index piece = 0;
-  for (Index f = 0; f < faces; ++f) {
-    const Index end = piece + pieces[f];
-    if (!is_plain(f)) {
-      table.first.push_back(static_cast<Index>(table.corners.size()));
-      table.replaced_first.push_back(static_cast<Index>(table.replaced.size()));
-      for (const Index w : source.face(f)) table.corners.push_back(wedge_to[w]);
-      table.group.push_back(source.group_of(f));
-      for (Index p = piece; p < end; ++p) table.replaced.push_back(map_triangle[p]);
-      out.order.face.push_back(f);
-      out.order.rotation.push_back(0);
-    }
-    piece = end;
-  }
-  if (!table.first.empty()) {
-    table.first.push_back(static_cast<Index>(table.corners.size()));
-    table.replaced_first.push_back(static_cast<Index>(table.replaced.size()));
-  }
-
+  for (Index& wedge : out.faces.corners) wedge = wedge_to[wedge];
   for (const Attribute& a : source.face_attributes)
-    table.attributes.push_back(gather(a, out.order.face));
+    out.faces.attributes.push_back(gather(a, out.order.face));
   if (!with_order) {
     out.order = {};
     return out;

@@ -1,7 +1,8 @@
-"""BASE, PCKT and FINE of the compact profile (compact.md)."""
+"""BASE, PCKT, FINE and fACE of the compact profile (compact.md)."""
 
 import cells
 import compact_base
+import compact_faces
 import model
 from cells import BOUND
 from container import Payload
@@ -254,6 +255,14 @@ class Decoder:
         require(number < len(meshes), "C-067")
         self.decoders[number].read_fine(payload.rest())
         return number, None
+
+    def read_face(self, chunk, meshes):
+        payload = Payload(chunk.payload)
+        number = payload.varint()
+        require(number < len(meshes), "C-060")
+        table = compact_faces.read(meshes[number], self.decoders[number].state, payload)
+        model.check_face_table(meshes[number], table)
+        return number, table
 
     def check_fine(self):
         """At the end of a file."""

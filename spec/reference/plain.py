@@ -1,5 +1,6 @@
 """BASE and PCKT of the plain profile (container.md 7)."""
 
+import container
 import model
 from container import Payload
 from model import TRIANGLES, require
@@ -81,6 +82,9 @@ class Decoder:
     def read_fine(self, _chunk, _meshes):
         """FINE is known in the compact profile alone."""
         raise model.Violation("unsupported", "C-007")
+
+    def read_face(self, chunk, meshes):
+        return container.read_face(chunk, meshes)
 
     def check_fine(self):
         """There is none to be missed."""

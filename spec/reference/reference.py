@@ -104,7 +104,7 @@ class File:
     def read_rest(self):
         """FINE, fACE, oRDP and dGST (container.md 8, C-016)."""
         before = (-1, -1)
-        readers = {b"FINE": self.decoder.read_fine, b"fACE": container.read_face,
+        readers = {b"FINE": self.decoder.read_fine, b"fACE": self.decoder.read_face,
                    b"oRDP": container.read_ordp, b"dGST": container.read_dgst}
         orders = {}
         results = {b"FINE": {}, b"fACE": self.tables, b"oRDP": orders, b"dGST": self.digests}

@@ -50,6 +50,7 @@ bool PayloadDecoder::read(const Chunk& chunk, ReadIo& io) {
       {kForeignChunk, &PayloadDecoder::read_foreign},
       {kEndChunk, &PayloadDecoder::read_end},
   };
+  if (chunk.type == kFacesChunk && geometry_->codes_faces()) return read_faces(io);
   const auto* const known = std::ranges::find(kReads, chunk.type, &Read::type);
   if (known != std::end(kReads)) return (this->*known->read)(io);
   bool good = true;
@@ -157,16 +158,7 @@ bool PayloadDecoder::read_mesh(ReadIo& io) {
 bool PayloadDecoder::check_mesh(const MeshCounts& counts) {
   const ProgressiveMesh& mesh = strips_.meshes[mesh_];
   // Everything after needs the size of an element.
-  const auto has_components = [&](const Attribute& a, Field field, std::size_t i) {
-    if (a.count != 0) return true;
-    faults_.report(Fault::no_components, {.field = field, .mesh = mesh_, .element = i}, {});
-    return false;
-  };
-  if (!has_components(mesh.position, Field::position_format, 0)) return false;
-  for (std::size_t i = 0; i < mesh.wedge_attributes.size(); ++i)
-    if (!has_components(mesh.wedge_attributes[i], Field::wedge_format, i)) return false;
-  for (std::size_t i = 0; i < mesh.face_attribute_formats.size(); ++i)
-    if (!has_components(mesh.face_attribute_formats[i], Field::face_format, i)) return false;
+  if (!check_components(mesh, mesh_, faults_)) return false;
   if (!checks_model()) return true;
   if (!check_mesh_header(strips_, mesh_, counts.map_entries, faults_)) return false;
   return counts.vsplits == counts.vertices - counts.base_vertices || refuse(Fault::vsplit_count);
@@ -273,6 +265,22 @@ bool PayloadDecoder::read_fine(ReadIo& io) {
 
 // ---- What strips cannot say ----
 
+bool PayloadDecoder::read_faces(ReadIo& io) {
+  Index number = 0;
+  io.varint(number, 32);
+  if (io.failed()) return io.finish();
+  if (!names_mesh(number, Fault::faces_mesh) || !is_in_order(kFacesChunk, number)) return false;
+  ProgressiveMesh& mesh = strips_.meshes[number];
+  const Index faces = counts_[number].faces;
+  FacesPayload::prepare(mesh);
+  const bool good = geometry_->read_faces(io, faces, mesh) &&
+                    (!mesh.faces.empty() || goes_on(Fault::faces_empty)) &&
+                    (!checks_model() || (check_faces(strips_, number, faults_) &&
+                                         (face_count(mesh) == faces || refuse(Fault::face_count))));
+  if (!good) FacesPayload::clear(mesh);
+  return good;
+}
+
 template <class Extra>
 bool PayloadDecoder::read_extra(ReadIo& io, Extra extra) {
   typename Extra::Head head;
@@ -335,15 +343,7 @@ bool PayloadDecoder::read_end(ReadIo& io) {
       return refuse(Fault::fine_needed);
   if (checks_model()) {
     if (!holds(fault_of_ends(reached_, strips_.meshes))) return false;
-    for (std::size_t m = 0; m < strips_.meshes.size(); ++m) {
-      const ProgressiveMesh& mesh = strips_.meshes[m];
-      if (face_count(mesh) != counts_[m].faces) return refuse(Fault::face_count);
-      if (mesh.faces.attributes.size() != mesh.face_attribute_formats.size())
-        return refuse(Fault::faces_missing);
-    }
-    for (std::size_t i = 0; i < embedded_.size(); ++i)
-      if (embedded_[i] != 0 && strips_.scene.images[i].data.empty())
-        return refuse(Fault::image_missing);
+    if (!holds(fault_of_end(strips_, counts_, embedded_))) return false;
   }
   strips_.complete = true;
   return true;

@@ -67,6 +67,7 @@ class PayloadDecoder {
   bool read_base(ReadIo& io);
   bool read_packet(ReadIo& io);
   bool read_fine(ReadIo& io);
+  bool read_faces(ReadIo& io);
   /// Chunks at the end ascend by mesh, then in the order of the table.
   bool is_in_order(const ChunkType& type, Index mesh);
   template <class Extra>

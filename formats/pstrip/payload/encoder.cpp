@@ -78,12 +78,18 @@ void PayloadEncoder::plan(const ChunkType& type, std::size_t element) {
     chunk.payload = geometry_->packet_bytes(element);
   } else if (type == kFineChunk) {
     chunk.payload = geometry_->fine_bytes(static_cast<Index>(element));
+  } else if (const Bytes* const faces = coded_faces(type, element)) {
+    chunk.payload = faces->size();
   } else {
     SizeIo size;
     fields(size, chunk);
     chunk.payload = size.size();
   }
   chunks_.push_back(chunk);
+}
+
+const Bytes* PayloadEncoder::coded_faces(const ChunkType& type, std::size_t element) const {
+  return type == kFacesChunk ? geometry_->coded_faces(static_cast<Index>(element)) : nullptr;
 }
 
 std::size_t PayloadEncoder::elements(ChunkOf of) const {
@@ -171,7 +177,10 @@ void PayloadEncoder::write(const PlannedChunk& chunk, std::span<std::byte> paylo
   if (chunk.type == kFineChunk)
     return geometry_->write_fine(static_cast<Index>(chunk.element), payload);
   WriteIo io(payload);
-  fields(io, chunk);
+  if (const Bytes* const faces = coded_faces(chunk.type, chunk.element))
+    io.rest(*faces);
+  else
+    fields(io, chunk);
 }
 
 }  // namespace pstrips::inline formats

@@ -39,6 +39,7 @@ class PayloadEncoder {
   void size_rows();
   void plan_chunks();
   void plan(const ChunkType& type, std::size_t element);
+  const Bytes* coded_faces(const ChunkType& type, std::size_t element) const;
   std::size_t elements(ChunkOf of) const;
   bool is_needed(const ChunkType& type, std::size_t element) const;
   void sum_totals();

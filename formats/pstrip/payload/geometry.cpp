@@ -19,6 +19,8 @@ static_assert(std::ranges::equal(kCodecs, kProfiles, {}, &ProfileCodec::profile,
 
 bool GeometryReader::needs_fine(Index) const { return false; }
 bool GeometryReader::read_fine(layout::ReadIo&, Index, ProgressiveMesh&) { return false; }
+bool GeometryReader::codes_faces() const { return false; }
+bool GeometryReader::read_faces(layout::ReadIo&, Index, ProgressiveMesh&) { return false; }
 
 const GeometryCodec& codec_of(Profile profile) {
   return std::ranges::find(kCodecs, profile, &ProfileCodec::profile)->codec();

@@ -62,6 +62,13 @@ class GeometryReader {
   /// The rest of a FINE: completes the mesh. Precondition: all packets of it are there, and
   /// needs_fine().
   virtual bool read_fine(layout::ReadIo& io, Index index, ProgressiveMesh& mesh);
+
+  /// fACE is coded by this profile, too. Otherwise its fields are those of the plain profile.
+  virtual bool codes_faces() const;
+  /// The rest of a fACE: fills the table of a mesh whose packets are all there.
+  ///
+  /// faces  of the decoded mesh, as MESH says
+  virtual bool read_faces(layout::ReadIo& io, Index faces, ProgressiveMesh& mesh);
 };
 
 /// How one profile codes the geometry, as far as a decoder is concerned; geometry_layout.h has the

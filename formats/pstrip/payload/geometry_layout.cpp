@@ -21,6 +21,7 @@ static_assert(std::ranges::equal(kLayouts, kProfiles, {}, &ProfileLayout::profil
 
 std::uint64_t GeometryWriter::fine_bytes(Index) { return 0; }
 void GeometryWriter::write_fine(Index, std::span<std::byte>) {}
+const Bytes* GeometryWriter::coded_faces(Index) const { return nullptr; }
 
 const GeometryLayout& layout_of(Profile profile) {
   return std::ranges::find(kLayouts, profile, &ProfileLayout::profile)->layout();

@@ -28,6 +28,9 @@ class GeometryWriter {
   /// The payload of FINE; 0: the mesh needs none.
   virtual std::uint64_t fine_bytes(Index mesh);
   virtual void write_fine(Index mesh, std::span<std::byte> payload);
+
+  /// The payload of fACE where the profile codes it; null: its fields are those of the plain one.
+  virtual const Bytes* coded_faces(Index mesh) const;
 };
 
 /// From here to the next mark, bytes of a payload belong to a part.

@@ -104,6 +104,32 @@ Fault fault_of_ends(std::span<const PacketStart> reached, std::span<const Progre
   return Fault::none;
 }
 
+bool check_components(const ProgressiveMesh& mesh, Index index, FaultSink& faults) {
+  const auto have = [&](std::span<const Attribute> formats, Field field) {
+    const auto none = std::ranges::find(formats, 0, &Attribute::count);
+    if (none == formats.end()) return true;
+    const auto element = static_cast<std::uint64_t>(none - formats.begin());
+    faults.report(Fault::no_components, {.field = field, .mesh = index, .element = element}, {});
+    return false;
+  };
+  return have({&mesh.position, 1}, Field::position_format) &&
+         have(mesh.wedge_attributes, Field::wedge_format) &&
+         have(mesh.face_attribute_formats, Field::face_format);
+}
+
+Fault fault_of_end(const ProgressiveStrips& strips, std::span<const MeshCounts> counts,
+                   std::span<const std::uint8_t> embedded) {
+  for (std::size_t m = 0; m < strips.meshes.size(); ++m) {
+    const ProgressiveMesh& mesh = strips.meshes[m];
+    if (face_count(mesh) != counts[m].faces) return Fault::face_count;
+    if (mesh.faces.attributes.size() != mesh.face_attribute_formats.size())
+      return Fault::faces_missing;
+  }
+  for (std::size_t i = 0; i < embedded.size(); ++i)
+    if (embedded[i] != 0 && strips.scene.images[i].data.empty()) return Fault::image_missing;
+  return Fault::none;
+}
+
 void clear_base(ProgressiveMesh& mesh) {
   mesh.position.data = {};
   mesh.base_wedge_vertex = {};

@@ -40,6 +40,15 @@ Fault complete_records(ProgressiveMesh& mesh, const PacketHead& head, const Pack
 /// Whether the packets have brought every vertex, wedge and triangle of every mesh.
 Fault fault_of_ends(std::span<const PacketStart> reached, std::span<const ProgressiveMesh> meshes);
 
+/// Whether each format of a mesh has components.
+bool check_components(const ProgressiveMesh& mesh, Index index, FaultSink& faults);
+
+/// What chunks behind the packets should have brought.
+///
+/// embedded  one flag an image
+Fault fault_of_end(const ProgressiveStrips& strips, std::span<const layout::MeshCounts> counts,
+                   std::span<const std::uint8_t> embedded);
+
 /// Takes back what a BASE brought.
 void clear_base(ProgressiveMesh& mesh);
 /// Takes back what a packet brought that starts at `to`.

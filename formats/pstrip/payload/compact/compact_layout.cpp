@@ -5,6 +5,7 @@
 #include "formats/pstrip/payload/compact/compact.h"
 #include "formats/pstrip/payload/compact/compact_fields.h"
 #include "formats/pstrip/payload/compact/compact_reader.h"
+#include "formats/pstrip/payload/compact/faces.h"
 #include "formats/pstrip/payload/compact/packet_code.h"
 #include "formats/pstrip/payload/compact/split_finder.h"
 
@@ -211,6 +212,18 @@ Result<Bytes> MeshWriter::write_packet(const Packet& packet) {
   return out;
 }
 
+Bytes faces_payload(const ProgressiveMesh& mesh, Index index) {
+  Bytes out;
+  if (mesh.faces.empty()) return out;
+  const CodedFaces coded = code_faces(mesh);
+  put_varint(out, index);
+  put_varint(out, coded.listed);
+  for (const Attribute& a : mesh.faces.attributes)
+    out.insert(out.end(), a.data.begin(), a.data.end());
+  out.insert(out.end(), coded.run.begin(), coded.run.end());
+  return out;
+}
+
 class CompactWriter final : public GeometryWriter {
  public:
   explicit CompactWriter(const ProgressiveStrips& strips) : strips_(strips) {}
@@ -235,9 +248,12 @@ class CompactWriter final : public GeometryWriter {
     formats::write_fine(strips_.meshes[mesh], cells_[mesh], payload.subspan(sizeof mesh));
   }
 
+  const Bytes* coded_faces(Index mesh) const override { return &faces_[mesh]; }
+
  private:
   const ProgressiveStrips& strips_;
   std::vector<MeshCells> cells_;  // of each mesh
+  std::vector<Bytes> faces_;      // likewise; empty where there is no table
   std::vector<Bytes> bases_, packets_;
 };
 
@@ -258,6 +274,8 @@ Result<std::unique_ptr<GeometryWriter>> CompactWriter::make(const ProgressiveStr
     if (!bytes) return tl::unexpected<Error>(bytes.error());
     out->packets_.push_back(std::move(*bytes));
   }
+  for (Index m = 0; m < strips.meshes.size(); ++m)
+    out->faces_.push_back(faces_payload(strips.meshes[m], m));
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/pstrip/payload/compact/compact_fields.h"
+#include "formats/pstrip/payload/compact/faces.h"
 #include "formats/pstrip/payload/compact/packet_code.h"
 #include "formats/pstrip/payload/compact/record_reader.h"
 #include "formats/pstrip/payload/geometry.h"
@@ -75,6 +76,17 @@ class CompactReader final : public GeometryReader {
                             [&](const Attribute& a) { return is_whole(a, mesh.wedges); }) &&
         formats::read_fine(bytes, meshes_[index].cells, mesh);
     return good || io.refuse(Fault::fine_length);
+  }
+
+  bool codes_faces() const override { return true; }
+  bool read_faces(ReadIo& io, Index faces, ProgressiveMesh& mesh) override {
+    Index listed = 0;
+    io.varint(listed, 32);
+    for (Attribute& a : mesh.faces.attributes) io.run(a, 0, faces);
+    if (io.failed()) return io.finish();
+    const ByteView run = io.in().take(io.in().remaining());
+    if (auto ok = formats::read_faces(run, listed, mesh); !ok) return io.refuse(ok.error().fault);
+    return io.finish();
   }
 
  private:
