@@ -31,7 +31,7 @@ class SpecTablesTest(unittest.TestCase):
         blocks = blocks_of_page()
         for name, block in zip(TABLES["chord_weights.h"], blocks[:2]):
             self.assertEqual(numbers(block), table_of_code("chord_weights.h", name), name)
-            self.assertEqual(len(numbers(block)), 5 * 24)
+            self.assertEqual(len(numbers(block)), 6 * 24)
 
     def test_step_weights(self):
         blocks = blocks_of_page()

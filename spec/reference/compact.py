@@ -12,8 +12,28 @@ from model import OPTIMAL, require
 from run import BitModel, Models, NumberModel, Run, SymbolModel, length, read_varint
 from stars import ABSENT, Stars
 
+WAITS, RECENT, PASSED, SPLIT = range(4)
 BATCH = 0  # kind of a PCKT
 MOST_COMPONENTS = 1024
+
+
+class Turns:
+    """Where vertices stand in a batch."""
+
+    def __init__(self):
+        self.recent, self.passed, self.split = set(), set(), set()
+
+    def start(self):
+        """A batch."""
+        self.recent, self.passed, self.split = self.split, set(), set()
+
+    def of(self, vertex):
+        """The class of kind 5 of compact.md 6.2."""
+        if vertex in self.split:
+            return SPLIT
+        if vertex in self.passed:
+            return PASSED
+        return RECENT if vertex in self.recent else WAITS
 
 
 class MeshDecoder:
@@ -33,7 +53,7 @@ class MeshDecoder:
             self.stars.add_face([self.state.vertex_of[wedge]
                                  for wedge in self.state.map[first : first + 3]])
         self.order = list(range(mesh.base_vertices))
-        self.recent = set()  # what came or split in the batch before
+        self.turns = Turns()
         self.visited = 0  # by all batches
         self.splits = Models(BitModel)
         self.chords = Chords(mesh.placement)
@@ -66,14 +86,14 @@ class MeshDecoder:
 
     def read_batch(self, run):
         order, self.order = self.order, []
-        recent, self.recent = self.recent, set()
+        self.turns.start()
         in_rings = {}  # how many splits of this batch had a vertex in their ring
         self.visited += len(order)
         if self.visited > 256 * self.mesh.vertices + (1 << 20):
             raise model.Violation("over limit", "D-043")
         for vertex in order:
             self.order.append(vertex)
-            context = (vertex in recent, min(len(self.stars.star[vertex]), 15),
+            context = (self.turns.of(vertex) == RECENT, min(len(self.stars.star[vertex]), 15),
                        min(in_rings.get(vertex, 0), 7))
             if self.splits[context].read(run):
                 new = len(self.state.position)
@@ -83,13 +103,14 @@ class MeshDecoder:
                     if place.vertex is not ABSENT:
                         in_rings[place.vertex] = in_rings.get(place.vertex, 0) + 1
                 self.order.append(new)
-                self.recent |= {vertex, new}
+                self.turns.split |= {vertex, new}
+            self.turns.passed.add(vertex)
 
     def read_split(self, run, vertex):
         """Reads and applies a split; returns the ring before it, or None."""
         ring = self.stars.ring(vertex)
         around = Surroundings(ring, vertex, self.state.position) if ring else None
-        chord = self.chords.read(run, around, self.stars)
+        chord = self.chords.read(run, around, self.stars, self.turns)
         if chord:
             split = self.stars.split_chord(vertex, ring.places, *chord)
             split.step = self.steps.read(run, around, vertex, split.q, *chord)

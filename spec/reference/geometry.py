@@ -67,8 +67,6 @@ class Surroundings:
         self.lengths = [half_steps(dot(arm, arm)) for arm in self.arms]
         n = half_steps(sum(place.vertex is not ABSENT for place in ring.places))
         self.mean = max(half_steps(sum(dot(arm, arm) for arm in self.arms)) - n, 0)
-        self.axis_mean = [max(half_steps(sum(arm[k] ** 2 for arm in self.arms)) - n, 0)
-                          for k in AXES]
 
     def side(self, i, j):
         """From place i to place j."""
@@ -86,7 +84,7 @@ class Chords:
         self.span = Models(SymbolModel)
         self.weights = tables.chord_weights(placement)
 
-    def read(self, run, around, stars):
+    def read(self, run, around, stars, turns):
         """The places (i, j) of the chord; None: long form. Without a ring around is None."""
         kind, s = NO_RING, 0
         if around is not None:
@@ -96,31 +94,32 @@ class Chords:
             return None
         half = self.placement == OPTIMAL and 2 * (n + 1) == s
         chords = [(i, (i + n + 1) % s) for i in range(s // 2 if half else s)]
-        chosen, shares = self.choose(run, around, stars, chords)
+        chosen, shares = self.choose(run, around, stars, turns, chords)
         i, j = chords[chosen]
         if half and number_of(around.places[i]) > number_of(around.places[j]):
             i, j = j, i
         return i, j
 
-    def choose(self, run, around, stars, chords):
-        at_ends = [self.classes_at_end(around, stars, place) for place in range(around.s)]
+    def choose(self, run, around, stars, turns, chords):
+        at_ends = [self.classes_at_end(around, stars, turns, place) for place in range(around.s)]
         of_sides = [self.classes_of_sides(around, i, j) for i, j in chords]
         sums = []
         for (i, j), classes in zip(chords, of_sides):
-            seven = classes + at_ends[i] + at_ends[j]
-            sums.append(sum(self.weights[kind][number] for kind, number in seven))
+            nine = classes + at_ends[i] + at_ends[j]
+            sums.append(sum(self.weights[kind][number] for kind, number in nine))
         best = max(sums)
         chosen, shares = run.choice([exponential(best - b) for b in sums])
         self.learn(chords, of_sides, at_ends, chosen, shares)
         return chosen, shares
 
-    def classes_at_end(self, around, stars, place):
-        """(kind, class) of kinds 0 and 4."""
+    def classes_at_end(self, around, stars, turns, place):
+        """(kind, class) of kinds 0, 4 and 5."""
         vertex = around.places[place].vertex
         if vertex is ABSENT:
-            return [(0, 23), (4, 23)]
+            return [(0, 23), (4, 23), (5, 23)]
         return [(0, min(chord_class(around.lengths[place], around.mean), 22)),
-                (4, min(len(stars.star[vertex]), 22))]
+                (4, min(len(stars.star[vertex]), 22)),
+                (5, turns.of(vertex))]
 
     def classes_of_sides(self, around, i, j):
         """(kind, class) of kinds 1, 2 and 3."""
@@ -153,6 +152,29 @@ def number_of(place):
     return float("inf") if place.vertex is ABSENT else place.vertex
 
 
+class Spread:
+    """How far the near side's places and the vertex itself lie apart along two axes."""
+
+    def __init__(self, around, i, j, after, before):
+        near = around.side(i, j)
+        places = [(i + d) % around.s for d in range((j - i) % around.s + 1)]
+        self.n = near.count + 1
+
+        def moment(k, m):
+            products = sum(around.arms[place][k] * around.arms[place][m] for place in places)
+            return self.n * products - near.sum[k] * near.sum[m]
+
+        a, b, c = moment(after, after), moment(after, before), moment(before, before)
+        self.first = self.size(a, 0)
+        r = max(length(max(a, c)) - 40, 0)
+        a, b, c = a >> r, b >> r, c >> r
+        self.slope = min(max(toward_zero(179 * b, max(a, 1)), -4096), 4096)
+        self.second = self.size(max(c - (self.slope * b >> 8), 1), r)
+
+    def size(self, square, r):
+        return max(half_steps(square) + 2 * r - half_steps(self.n**2), 0)
+
+
 class Steps:
     """The step from the other vertex to the new one (compact.md 6.3)."""
 
@@ -167,8 +189,11 @@ class Steps:
         normal, up = self.normal(around, i, j)
         after, before = (up + 1) % 3, (up + 2) % 3
         step = [0, 0, 0]
-        step[after] = plain[after] + self.models[0].read(run, around.axis_mean[after])
-        step[before] = plain[before] + self.models[1].read(run, around.axis_mean[before])
+        spread = Spread(around, i, j, after, before)
+        off = self.models[0].read(run, spread.first)
+        step[after] = plain[after] + off
+        step[before] = (plain[before] + ((spread.slope * off + 128) >> 8)
+                        + self.models[1].read(run, spread.second))
         h = plain[up]
         if normal[up] != 0:
             y = dot(normal, g) - 16 * (normal[after] * step[after] + normal[before] * step[before])

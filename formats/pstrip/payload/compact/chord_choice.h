@@ -34,7 +34,7 @@ class ChordChoice {
   Shares weighed(const ChordWeights& weights) const;
 
   unsigned size_, side_, chords_;
-  Classes end_, faces_;          // of neighbours
+  Classes end_, faces_, turn_;   // of neighbours
   Classes near_, far_, length_;  // of chords, by the neighbour where they start
   Shares shares_;
 };
@@ -72,7 +72,7 @@ inline void ChordChoice::see_ends(const SplitState& state, const VertexRing& rin
                                   const RingGeometry& geometry) {
   for (unsigned i = 0; i < size_; ++i) {
     if (geometry.is_absent(i)) {
-      end_[i] = faces_[i] = kLast;
+      end_[i] = faces_[i] = turn_[i] = kLast;
       continue;
     }
     const auto length = static_cast<int>(geometry.length(i));
@@ -80,6 +80,7 @@ inline void ChordChoice::see_ends(const SplitState& state, const VertexRing& rin
         static_cast<std::uint8_t>(std::min(length_class(length, geometry.length()), kLast - 1));
     faces_[i] =
         static_cast<std::uint8_t>(std::min(state.mesh.face_count_of(ring.vertex[i]), kLast - 1));
+    turn_[i] = static_cast<std::uint8_t>(state.turn[ring.vertex[i]]);
   }
 }
 
@@ -102,8 +103,9 @@ inline void ChordChoice::see_sides(const RingGeometry& geometry) {
 inline Shares ChordChoice::weighed(const ChordWeights& weights) const {
   std::array<std::int32_t, kSize> of_end, bits;
   for (unsigned i = 0; i < size_; ++i)
-    of_end[i] =
-        weights.of(ChordWeights::ends, end_[i]) + weights.of(ChordWeights::faces, faces_[i]);
+    of_end[i] = weights.of(ChordWeights::ends, end_[i]) +
+                weights.of(ChordWeights::faces, faces_[i]) +
+                weights.of(ChordWeights::turns, turn_[i]);
   std::int32_t most = 0;
   for (unsigned i = 0, to = side_; i < chords_; ++i, to = to + 1 == size_ ? 0 : to + 1) {
     bits[i] = of_end[i] + of_end[to] + weights.of(ChordWeights::near, near_[i]) +
@@ -130,6 +132,7 @@ inline void ChordChoice::learn(ChordWeights& weights, unsigned chosen) const {
   for (unsigned i = 0; i < size_; ++i) {
     weights.learn(ChordWeights::ends, end_[i], slope[i]);
     weights.learn(ChordWeights::faces, faces_[i], slope[i]);
+    weights.learn(ChordWeights::turns, turn_[i], slope[i]);
   }
 }
 

@@ -20,6 +20,7 @@ class ChordWeights {
     far,     ///< the other side, ends included as well
     length,  ///< the near side, by the mean of its distances
     faces,   ///< a neighbour where the chord ends, by the number of its faces; the last as above
+    turns,   ///< a neighbour where the chord ends, by its Turn; the last as above
     kKinds,
   };
 
@@ -48,6 +49,7 @@ inline constexpr ChordWeightTable kSubsetChords = {{
     {95, 53, 49, 39, 44, 38, 36, 35, 32, 28, 23, 16, 4, 8, -6, -13, -26, -46, -61, -78, -93, -94, -43, -1},
     {-54, -43, -50, -55, -49, -49, -50, -55, -54, -54, -52, -42, -35, -21, -5, 12, 31, 49, 65, 77, 76, 45, 21, 9},
     {0, 0, 30, 9, 3, 17, -20, 1, -22, -10, -7, 0, -1, 5, 5, 9, 16, 1, -7, 0, 0, 0, 0, 36},
+    {20, 25, -18, -25, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
 }};
 inline constexpr ChordWeightTable kOptimalChords = {{
     {48, 49, 57, 49, 67, 69, 68, 74, 86, 82, 49, 33, 31, 63, 46, 51, 37, 23, 5, -14, -38, -48, -91, 26},
@@ -55,6 +57,7 @@ inline constexpr ChordWeightTable kOptimalChords = {{
     {-30, -40, -36, -33, -30, -12, 8, 5, -2, -12, -7, -6, -4, 10, 17, 19, 15, 0, -29, -36, -41, -14, 0, 0},
     {-10, -23, -20, -32, -34, -33, -42, -48, -50, -39, -30, -22, -13, -1, 4, 8, 10, 10, 17, 15, 6, 3, -2, 0},
     {0, -11, 14, -1, -5, 16, -24, 3, -17, -1, 5, 11, 12, 18, 14, 15, 15, 1, -3, 0, 0, 0, 0, 26},
+    {20, 25, -18, -25, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
 }};
 // clang-format on
 

@@ -40,10 +40,11 @@ class RingGeometry {
   unsigned size() const { return size_; }
   bool is_open() const { return open_; }
   bool is_absent(unsigned i) const { return open_ && i + 1 == size_; }
-  GridPoint arm(unsigned i) const { return {x_[i], y_[i], z_[i]}; }  ///< 0 for an absent neighbour
+  /// 0 for an absent neighbour.
+  GridPoint arm(unsigned i) const { return {along_[0][i], along_[1][i], along_[2][i]}; }
+  std::int64_t along(unsigned axis, unsigned i) const { return along_[axis][i]; }
   unsigned length(unsigned i) const { return length_[i]; }
-  unsigned length() const { return mean_length_; }                ///< root of the mean square
-  unsigned extent(unsigned axis) const { return extent_[axis]; }  ///< the same along one axis
+  unsigned length() const { return mean_length_; }  ///< root of the mean square
 
   /// places  1 to the ring's size, at least one of them a neighbour
   Run run(unsigned from, unsigned places) const {
@@ -77,8 +78,7 @@ class RingGeometry {
   unsigned size_;
   bool open_;
   unsigned mean_length_ = 0;
-  std::array<unsigned, 3> extent_{};
-  std::array<std::int32_t, VertexRing::kMaxSize> x_, y_, z_;  // of the arms
+  std::array<std::array<std::int32_t, VertexRing::kMaxSize>, 3> along_;  // of the arms
   std::array<std::uint8_t, VertexRing::kMaxSize> length_;
   GridPoint sum_;
 };
@@ -86,25 +86,20 @@ class RingGeometry {
 inline RingGeometry::RingGeometry(const SplitState& state, Index vertex, const VertexRing& ring)
     : size_(ring.size), open_(ring.open) {
   const GridPoint centre = state.position[vertex];
-  std::array<std::uint64_t, 3> squares{};
+  std::uint64_t squares = 0;
   for (unsigned i = 0; i < size_; ++i) {
     const GridPoint arm = is_absent(i) ? GridPoint{} : state.position[ring.vertex[i]] - centre;
-    const auto square = [](std::int64_t x) { return static_cast<std::uint64_t>(x * x); };
-    const std::array<std::uint64_t, 3> own = {square(arm.x), square(arm.y), square(arm.z)};
-    for (unsigned k = 0; k < 3; ++k) squares[k] += own[k];
-    x_[i] = arm.x;
-    y_[i] = arm.y;
-    z_[i] = arm.z;
-    length_[i] = static_cast<std::uint8_t>(half_octaves(own[0] + own[1] + own[2]));
+    const std::uint64_t square = square_of(arm);
+    squares += square;
+    along_[0][i] = arm.x;
+    along_[1][i] = arm.y;
+    along_[2][i] = arm.z;
+    length_[i] = static_cast<std::uint8_t>(half_octaves(square));
     sum_ = sum_ + arm;
   }
   const unsigned count = half_octaves(size_ - (open_ ? 1 : 0));
-  const auto mean = [&](std::uint64_t squares_of_all) {
-    const unsigned all = half_octaves(squares_of_all);
-    return all > count ? all - count : 0;
-  };
-  for (unsigned k = 0; k < 3; ++k) extent_[k] = mean(squares[k]);
-  mean_length_ = mean(squares[0] + squares[1] + squares[2]);
+  const unsigned all = half_octaves(squares);
+  mean_length_ = all > count ? all - count : 0;
 }
 
 }  // namespace pstrips::inline formats

@@ -104,6 +104,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
   std::vector<Index> order;
   order.reserve(std::min(state.order.size() * 2, limits.vertices));
   std::ranges::fill(state.split_around, std::uint8_t{0});
+  for (Turn& turn : state.turn) turn = turn == Turn::split ? Turn::waits_recent : Turn::waits;
   VertexRing ring;
   GridSplit split;
   for (const Index vertex : state.order) {
@@ -111,10 +112,10 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     const GridSplit* const wanted = split_of(vertex);
     BitModel& splits =
         state.models
-            .splits[state.is_new[vertex]]
+            .splits[state.turn[vertex] == Turn::waits_recent ? 1 : 0]
                    [std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
                    [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)];
-    state.is_new[vertex] = 0;
+    state.turn[vertex] = Turn::passed;
     coder.part(Part::parents);
     if (!coder.bit(splits, wanted != nullptr)) continue;
     if (state.mesh.vertex_count() >= limits.vertices) return broken(Fault::compact_counts);
@@ -131,7 +132,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     }
     const Result<Index> added = apply(state, vertex, ring, split);
     if (!added) return tl::unexpected<Error>(added.error());
-    state.is_new[vertex] = state.is_new[*added] = 1;
+    state.turn[vertex] = state.turn[*added] = Turn::split;
     state.normal_error[*added] = state.normal_error[vertex];
     for (unsigned i = 0; i < ring.size; ++i)
       if (ring.vertex[i] != kNone && state.split_around[ring.vertex[i]] < 255)

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "formats/pstrip/payload/compact/chord_choice.h"
+#include "formats/pstrip/payload/compact/near_spread.h"
 #include "formats/pstrip/payload/compact/ring_geometry.h"
 #include "formats/pstrip/payload/compact/split_state.h"
 #include "formats/pstrip/payload/compact/step_guess.h"
@@ -58,8 +59,10 @@ void code_step(Coder& coder, SplitState& state, Index vertex, const VertexRing& 
     coded[k] = guessed + model.code(coder, static_cast<std::int32_t>(off), size);
   };
   coder.part(Part::tangential);
-  code(models.tangential[0], u, guess.across(u), geometry.extent(u));
-  code(models.tangential[1], v, guess.across(v), geometry.extent(v));
+  const NearSpread spread(geometry, split.from, ring.places(split.from, split.to), u, v);
+  code(models.tangential[0], u, guess.across(u), spread.first());
+  code(models.tangential[1], v, guess.across(v) + spread.second_off(coded[u] - guess.across(u)),
+       spread.second());
   const std::int64_t height = guess.height(coded[u], coded[v]);
   coder.part(Part::normal);
   code(models.normal, up, height, (geometry.length() + mean_normal_error(state, ring)) / 2);
@@ -68,8 +71,12 @@ void code_step(Coder& coder, SplitState& state, Index vertex, const VertexRing& 
   const unsigned error = half_octaves(static_cast<std::uint64_t>(off * off) * 4);
   state.normal_error[vertex] =
       static_cast<std::uint8_t>((state.normal_error[vertex] + error + 1) / 2);
-  split.step = {static_cast<std::int32_t>(coded[0]), static_cast<std::int32_t>(coded[1]),
-                static_cast<std::int32_t>(coded[2])};
+  // What is beyond any grid stays there, and is refused.
+  constexpr std::int64_t kBeyond = 2 * kMaxGrid + 1;
+  const auto within = [&](unsigned k) {
+    return static_cast<std::int32_t>(std::clamp(coded[k], -kBeyond, kBeyond));
+  };
+  split.step = {within(0), within(1), within(2)};
 }
 
 }  // namespace pstrips::inline formats

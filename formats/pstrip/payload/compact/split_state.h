@@ -22,6 +22,14 @@ struct GridSplit {
   std::vector<bool> new_first;
 };
 
+/// Where a vertex stands in a batch.
+enum class Turn : std::uint8_t {
+  waits,         ///< not visited yet
+  waits_recent,  ///< the same; it came into being or split in the batch before
+  passed,        ///< does not split
+  split,         ///< split, or came into being by it
+};
+
 /// A mesh between two batches, as both sides know it.
 struct SplitState {
   explicit SplitState(Placement how) : placement(how), models(how) {}
@@ -31,7 +39,7 @@ struct SplitState {
   std::vector<GridPoint> position;
   /// All vertices, neighbours near each other: each new one stands behind the one it came from.
   std::vector<Index> order;
-  std::vector<std::uint8_t> is_new;        ///< came into being or split in the batch before
+  std::vector<Turn> turn;
   std::vector<std::uint8_t> split_around;  ///< neighbours split in this batch; stops at 255
   std::vector<std::uint8_t> normal_error;  ///< quarter octaves, smoothed
   SplitModels models;
@@ -45,7 +53,7 @@ struct SplitState {
   /// Room for the data of a vertex that the mesh has already.
   void extend(GridPoint at) {
     position.push_back(at);
-    is_new.push_back(0);
+    turn.push_back(Turn::waits);
     split_around.push_back(0);
     normal_error.push_back(0);
   }
