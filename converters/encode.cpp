@@ -376,10 +376,10 @@ class Encoder {
     }
   }
 
-  // Integers are their own grid.
   PositionGrid grid_of(const Mesh& mesh) const {
     const ComponentType type = mesh.position.type;
-    return type == ComponentType::f32 || type == ComponentType::f64 ? grid_ : PositionGrid{};
+    return type == ComponentType::f32 || type == ComponentType::f64 ? grid_
+                                                                    : integer_grid(mesh.position);
   }
 
   Result<Recording> record_mesh(Index m, const Mesh& mesh, const Triangulation& triangles,

@@ -130,12 +130,10 @@ Result<PositionGrid> position_grid(const Model& model, unsigned bits) {
     const Attribute& position = model.meshes[m].position;
     const ComponentType type = position.type;
     any_floats = any_floats || is_float(type);
-    const bool fits = is_float(type) || (bits == 0 && size_of(type) < 4);
-    if (!fits)
+    if (bits > 0 && !is_float(type))
       return fail(ErrorCode::unsupported,
                   "positions of type " + std::string(name_of(type)) +
-                      (bits > 0 ? " are kept as they are, not quantized"
-                                : " do not fit the compact profile"),
+                      " are kept as they are, not quantized",
                   kNoOffset, "/meshes/" + std::to_string(m));
     if (is_float(type)) box.add(position);
     if (bits > 0 && !box.is_finite)
@@ -145,6 +143,12 @@ Result<PositionGrid> position_grid(const Model& model, unsigned bits) {
   if (!any_floats) return PositionGrid{};
   if (bits > 0) return points(box, bits);
   return own_points(model, box).value_or(cells(box));
+}
+
+PositionGrid integer_grid(const Attribute& position) {
+  if (size_of(position.type) < 4) return {};
+  const Cells cells = Cells::choose(position, 23);
+  return {.step = std::ldexp(1.f, cells.exponent()), .origin = {}, .exact = cells.exact()};
 }
 
 double move_to_grid(Mesh& mesh, const PositionGrid& grid) {

@@ -15,9 +15,12 @@ inline constexpr unsigned kMinPositionBits = 8, kMaxPositionBits = 24;
 /// bits    kMinPositionBits to kMaxPositionBits: points on which positions are to be put, 2^bits of
 ///         them along the longest side of a box around all meshes. 0: cells for positions that stay
 ///         as they are, small enough that levels show no steps
-/// errors  unsupported: positions of an integer type of 32 bits; with bits all that are no floats,
-///         or not finite
+/// errors  unsupported: with bits, positions that are no floats, or not finite
 Result<PositionGrid> position_grid(const Model& model, unsigned bits);
+
+/// That of positions of an integer type, which stay as they are: cells of a power of two where they
+/// have more than 23 bits.
+PositionGrid integer_grid(const Attribute& position);
 
 /// Moves each vertex to the point of the grid next to it. Positions become f32.
 ///

@@ -113,6 +113,11 @@ def of_positions(form, grid):
         require(form.type in (I8, U8, I16, U16), "M-061")
         return [IntegerCells(form.type, 0, True)] * 3
     require(0 < grid.step < float("inf"), "M-061")
+    if form.type in (I32, U32):
+        e = exponent_of(grid.step)
+        require(e is not None and 0 <= e <= 9 and not any(grid.origin), "M-061")
+        require(bool(grid.exact) == (e == 0), "M-061")
+        return [IntegerCells(form.type, e, e == 0)] * 3
     if grid.exact:
         require(form.type == F32, "M-061")
         require(all(abs(origin) <= 1 << 29 for origin in grid.origin), "M-061")

@@ -130,6 +130,14 @@ TEST(PositionCells, RefuseGridsThatAreNone) {
   EXPECT_FALSE(is_valid({.step = 0}));
   EXPECT_TRUE(is_valid({.step = 0}, ComponentType::i16));
   EXPECT_FALSE(is_valid({.step = 0}, ComponentType::i32));
+  EXPECT_FALSE(is_valid({.step = 1}, ComponentType::i16));
+  EXPECT_TRUE(is_valid({.step = 1}, ComponentType::i32));
+  EXPECT_FALSE(is_valid({.step = 2}, ComponentType::i32));
+  EXPECT_FALSE(is_valid({.step = 1, .exact = false}, ComponentType::u32));
+  EXPECT_TRUE(is_valid({.step = 512, .exact = false}, ComponentType::u32));
+  EXPECT_FALSE(is_valid({.step = 1024, .exact = false}, ComponentType::u32));
+  EXPECT_FALSE(is_valid({.step = 3, .exact = false}, ComponentType::u32));
+  EXPECT_FALSE(is_valid({.step = 4, .origin = {0, 0, 1}, .exact = false}, ComponentType::i32));
   EXPECT_FALSE(is_valid({.step = -1}));
   EXPECT_FALSE(is_valid({.step = std::nanf("")}));
   EXPECT_FALSE(is_valid({.step = 0.3f, .exact = false}));

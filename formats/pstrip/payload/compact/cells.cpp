@@ -89,6 +89,11 @@ std::int32_t float_cell(const Parts& x, int exponent) {
   return signed_cell(x.negative, x.mantissa << -shift);
 }
 
+/// 0: it is none.
+std::size_t size_of_integer(ComponentType type) {
+  return type == ComponentType::f32 || type == ComponentType::f64 ? 0 : size_of(type);
+}
+
 bool is_signed(ComponentType type) {
   return type == ComponentType::i8 || type == ComponentType::i16 || type == ComponentType::i32;
 }
@@ -159,12 +164,14 @@ bool Cells::is_valid(ComponentType type, int exponent) {
 Cells Cells::choose(const Attribute& attribute, unsigned bits) {
   const ComponentType type = attribute.type;
   if (type != ComponentType::f32 && type != ComponentType::f64) {
-    std::int64_t farthest = 0;
+    std::int64_t low = 0, high = 0;
     for (std::size_t i = 0; i < attribute.elements() * attribute.count; ++i) {
       const std::int64_t n = integer_of(bits_of(attribute, 0, i), type);
-      farthest = std::max(farthest, n < 0 ? -(n + 1) : n);
+      low = std::min(low, n);
+      high = std::max(high, n);
     }
-    const int exponent = std::max(0, length_of(static_cast<std::uint64_t>(farthest)) - 23);
+    int exponent = 0;
+    while (low >> exponent < -kMaxCell || high >> exponent > kMaxCell) ++exponent;
     return {type, exponent, exponent == 0};
   }
   const Extent extent = extent_of(attribute);
@@ -227,23 +234,27 @@ std::uint64_t Cells::middle(std::int32_t cell) const {
 PositionCells::PositionCells(const PositionGrid& grid, ComponentType type) : grid_(grid) {
   if (grid.step == 0)
     cells_ = Cells(type, 0, true);
-  else if (!grid.exact)
-    cells_ = Cells(type, std::ilogb(grid.step), false);
+  else if (!grid.exact || size_of_integer(type) > 0)
+    cells_ = Cells(type, std::ilogb(grid.step), grid.exact);
 }
 
 bool PositionCells::is_valid(const PositionGrid& grid, ComponentType type) {
-  const bool is_float = type == ComponentType::f32 || type == ComponentType::f64;
-  if (grid.step == 0) return !is_float && size_of(type) < 4;
-  if (!is_float || !std::isfinite(grid.step) || grid.step < 0) return false;
+  const std::size_t integer_bytes = size_of_integer(type);
+  if (grid.step == 0) return integer_bytes > 0 && integer_bytes < 4;
+  if (!std::isfinite(grid.step) || grid.step < 0) return false;
+  int exponent = 0;
+  const bool is_power = std::frexp(grid.step, &exponent) == 0.5f;
+  const bool is_at_zero = grid.origin == PositionGrid{}.origin;
+  if (integer_bytes > 0)
+    return integer_bytes == 4 && is_power && is_at_zero && Cells::is_valid(type, exponent - 1) &&
+           grid.exact == (grid.step == 1);
   if (grid.exact) {
     constexpr std::int64_t kFarthest = std::int64_t{1} << 29;
     return type == ComponentType::f32 && std::ranges::all_of(grid.origin, [](std::int64_t o) {
              return o >= -kFarthest && o <= kFarthest;
            });
   }
-  int exponent = 0;
-  return std::frexp(grid.step, &exponent) == 0.5f && grid.origin == PositionGrid{}.origin &&
-         Cells::is_valid(type, exponent - 1);
+  return is_power && is_at_zero && Cells::is_valid(type, exponent - 1);
 }
 
 std::int32_t PositionCells::cell_of(std::uint64_t component, unsigned axis) const {

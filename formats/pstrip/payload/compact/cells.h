@@ -65,7 +65,8 @@ void set_bits(Attribute& attribute, std::size_t element, std::size_t component, 
 /// Positions on a grid or in cells, whichever the mesh has.
 class PositionCells {
  public:
-  /// A grid with a step of 0 stands for none: then integers are their own cells.
+  /// A grid with a step of 0 stands for none: then integers are their own cells. Those of 32 bits
+  /// have cells of a step.
   PositionCells(const PositionGrid& grid, ComponentType type);
 
   /// The grid can be used: its step is finite and positive, a power of two if it is of cells, and
