@@ -11,6 +11,8 @@ find_path(FAST_FLOAT_INCLUDE_DIR fast_float/fast_float.h REQUIRED)
 if(PSTRIPS_CLI)
   find_package(fmt 9.1 REQUIRED)
   find_package(CLI11 2.1 REQUIRED)
+  find_path(HTTPLIB_INCLUDE_DIR httplib.h REQUIRED)  # cpp-httplib 0.11
+  find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)
 endif()
 
 # Compared with, where they are installed. VTK is half a gigabyte and in no list of ours.

@@ -6,6 +6,9 @@ install(TARGETS pstrips pstrips_decoder EXPORT pstrips-targets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 if(PSTRIPS_CLI)
   install(TARGETS pstrips_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # When web/build has made it.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/web/viewer
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/pstrips OPTIONAL)
 endif()
 install(EXPORT pstrips-targets NAMESPACE pstrips:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pstrips)
 configure_package_config_file(cmake/pstrips-config.cmake.in pstrips-config.cmake
