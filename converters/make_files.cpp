@@ -66,6 +66,7 @@ Result<FileSet> make_any_gltf(const Model& model, const OutputName& name, bool b
                                     .buffer_name = name.companion});
   if (!written) return tl::unexpected(written.error());
   FileSet out = one_file(name, std::move(written->main), std::move(written->dropped));
+  out.converted = std::move(written->converted);
   for (auto& [other, bytes] : written->others)
     out.files.push_back({beside(name.path, other), std::move(bytes)});
   return out;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/gather.h"
+#include "formats/gltf/local_origin.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
@@ -81,7 +82,7 @@ std::string custom_name(std::string name) {
 }
 
 /// Names and types of other formats become glTF's.
-void fit(Fitted& out, std::vector<std::string>& dropped) {
+void fit(Fitted& out, Notes& notes) {
   const Attribute& in = *out.source;
   const Semantic* semantic = find_semantic(out.name);
   const bool fits_count = semantic && in.count >= semantic->least && in.count <= semantic->most;
@@ -90,12 +91,12 @@ void fit(Fitted& out, std::vector<std::string>& dropped) {
   const bool keeps_name = fits_count && (semantic->plain & kFloat);
   if (!keeps_name && !(out.name.starts_with('_') && custom_name(out.name) == out.name)) {
     out.name = custom_name(out.name);
-    dropped.push_back("the name of attribute " + in.semantic + ", written as " + out.name);
+    notes.converted.push_back("the name of attribute " + in.semantic + ", written as " + out.name);
   }
   if (keeps_name || !((kSmallIntegers | kFloat) & type)) {
     out.converted = as_float(in, in.count);
-    dropped.push_back("the type " + std::string(name_of(in.type)) + " of attribute " + in.semantic +
-                      ", written as f32");
+    notes.converted.push_back("the type " + std::string(name_of(in.type)) + " of attribute " +
+                              in.semantic + ", written as f32");
   }
 }
 
@@ -128,16 +129,32 @@ bool set_type(Fitted& out, bool is_mat2) {
   }
 }
 
-Fitted fit_position(const Mesh& mesh, std::vector<std::string>& dropped) {
+/// As f32, counted from an origin.
+Attribute from_origin(const Attribute& in, const Point& origin) {
+  Attribute out{in.semantic, ComponentType::f32, 3, false, {}};
+  out.data.resize(in.elements() * out.element_bytes());
+  for (std::size_t i = 0; i < in.elements(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      set_component(out, i, c, (c < in.count ? component(in, i, c) : 0) - origin[c]);
+  return out;
+}
+
+Fitted fit_position(const Mesh& mesh, const Point& origin, Notes& notes) {
   Fitted out{.name = "POSITION", .type = "VEC3", .source = &mesh.position, .converted = {}};
   if (!mesh.wedge_vertex.empty()) out.converted = per_wedge(mesh);
   const Attribute& in = out.attribute();
-  if (in.count == 3 && (bit(in.type, in.normalized) & (kFloat | kSmallIntegers))) return out;
-  if (in.type != ComponentType::f32)
-    dropped.push_back("the type " + std::string(name_of(in.type)) +
-                      " of positions, written as f32");
-  if (in.count > 3) dropped.push_back("components of positions beyond the third");
-  out.converted = as_float(in, 3);
+  const bool is_held = bit(in.type, in.normalized) & (kFloat | kSmallIntegers);
+  if (in.count == 3 && is_held && origin == Point{}) return out;
+  if (in.type != ComponentType::f32) {
+    char text[32];
+    const double error = rounding_of(mesh, origin);
+    const auto end = std::to_chars(text, std::end(text), error, std::chars_format::general, 3).ptr;
+    notes.converted.push_back("the type " + std::string(name_of(in.type)) +
+                              " of positions, written as f32, at most " + std::string(text, end) +
+                              " away");
+  }
+  if (in.count > 3) notes.dropped.push_back("components of positions beyond the third");
+  out.converted = from_origin(in, origin);
   return out;
 }
 
@@ -157,21 +174,20 @@ bool Fitted::needs_quantization() const {
   return semantic && (semantic->quantized & ~semantic->plain & type_bit);
 }
 
-std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options,
-                                   std::vector<std::string>& dropped) {
+std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options, Notes& notes) {
   std::vector<Fitted> out;
-  out.push_back(fit_position(mesh, dropped));
+  out.push_back(fit_position(mesh, options.origin, notes));
   Names taken{{kNone, out.front().name}};
   for (const Attribute& attribute : mesh.wedge_attributes) {
     Fitted fitted{.name = attribute.semantic, .type = {}, .source = &attribute, .converted = {}};
     split_target(fitted, options.from_gltf ? options.targets : mesh.wedge_attributes.size());
     const bool wide = attribute.type == ComponentType::f64 || attribute.type == ComponentType::i32;
-    if (wide || (!options.from_gltf && fitted.target == kNone)) fit(fitted, dropped);
+    if (wide || (!options.from_gltf && fitted.target == kNone)) fit(fitted, notes);
     const bool is_mat2 =
         options.mat2 && std::ranges::find(*options.mat2, attribute.semantic) != options.mat2->end();
     if (!set_type(fitted, is_mat2)) {
-      dropped.push_back("attribute " + attribute.semantic + " of " +
-                        std::to_string(attribute.count) + " components");
+      notes.dropped.push_back("attribute " + attribute.semantic + " of " +
+                              std::to_string(attribute.count) + " components");
       continue;
     }
     make_unique(fitted, taken);

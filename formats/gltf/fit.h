@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "core/mesh.h"
+#include "core/notes.h"
+#include "core/point.h"
 
 namespace pstrips::inline formats::gltf {
 
@@ -26,11 +28,11 @@ struct FitOptions {
   bool from_gltf = false;                          ///< names and types are glTF's already
   Index targets = 0;                               ///< morph targets, when from glTF
   const std::vector<std::string>* mat2 = nullptr;  ///< attributes of four components that are MAT2
+  Point origin{};                                  ///< positions are counted from here
 };
 
 /// POSITION, one element a wedge, and the wedge attributes; they refer to `mesh` where nothing had
-/// to be converted. `dropped` receives what changed. cost O(size)
-std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options,
-                                   std::vector<std::string>& dropped);
+/// to be converted. `notes` receives what changed. cost O(size)
+std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options, Notes& notes);
 
 }  // namespace pstrips::inline formats::gltf

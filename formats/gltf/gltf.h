@@ -61,13 +61,19 @@ struct GltfWriteOptions {
 struct GltfFiles {
   Bytes main;
   std::vector<std::pair<std::string, Bytes>> others;  ///< name and content; at most the buffer
-  std::vector<std::string> dropped;  ///< what glTF or the options cannot hold, one phrase each
+  std::vector<std::string> dropped;    ///< what glTF or the options cannot hold, one phrase each
+  std::vector<std::string> converted;  ///< what they hold in another way
 };
 
 /// Writes a model as glTF 2.0. A model that came from read_gltf gets back its meshes, primitives
 /// and the rest of its asset; then read_gltf(write_gltf(model)) equals the model, unless something
 /// is reported as dropped. Any other model, or one whose meshes, materials or images no longer
 /// fit what was kept, becomes a new asset of the generic scene.
+///
+/// What glTF forbids is not written: vertices that are no numbers go with their faces, values are
+/// mended (see mend.h), skins and weights go with the attributes that they need, textures with
+/// their coordinates. Positions that f32 would distort (map coordinates) are counted from one
+/// origin for all meshes, which stands in the translation of a node.
 ///
 /// Polygons become triangle fans, f64 and other types that glTF forbids f32; names that glTF does
 /// not know get a leading '_'. Indices take the smallest type and never its largest value.

@@ -10,7 +10,8 @@
 #include "formats/gltf/extensions/extension.h"
 #include "formats/gltf/image_type.h"
 #include "formats/gltf/kept_asset.h"
-#include "formats/gltf/topology.h"
+#include "formats/gltf/mesh_writer.h"
+#include "formats/gltf/needs.h"
 
 namespace pstrips::inline formats {
 namespace gltf {
@@ -33,11 +34,15 @@ std::size_t expected_bytes(const Model& model) {
 class AssetWriter {
  public:
   AssetWriter(const Model& model, const GltfWriteOptions& options)
-      : model_(model), options_(options), kept_(find_kept_asset(model)) {
+      : model_(model),
+        options_(options),
+        kept_(find_kept_asset(model)),
+        meshes_(model, options, kept_ ? &kept_->map.layouts : nullptr, buffer_, notes_) {
     const ByteView chunks = find_foreign(model.scene, kChunksKey);
-    if (!chunks.empty() && !options.binary) dropped_.push_back("unknown chunks of the .glb file");
+    if (!chunks.empty() && !options.binary)
+      notes_.dropped.push_back("unknown chunks of the .glb file");
     if (!kept_ && !find_foreign(model.scene, kRestKey).empty())
-      dropped_.push_back("the rest of the glTF asset: the model no longer has its meshes");
+      notes_.dropped.push_back("the rest of the glTF asset: the model no longer has its meshes");
   }
 
   Result<GltfFiles> write() {
@@ -55,9 +60,11 @@ class AssetWriter {
     }
     add_images();
     buffer_.add_index_views();
-    for (const std::string_view name : extensions_required_)
+    if (materials().empty()) root_.erase("materials");
+    for (const std::string_view name : meshes_.extensions())
       list_in("extensionsRequired").push_back(name);
-    for (const std::string_view name : extensions_used_) list_in("extensionsUsed").push_back(name);
+    image_extensions_.insert(meshes_.extensions().begin(), meshes_.extensions().end());
+    for (const std::string_view name : image_extensions_) list_in("extensionsUsed").push_back(name);
     if (json accessors = buffer_.take_accessors(); !accessors.empty())
       root_["accessors"] = std::move(accessors);
     if (json views = buffer_.take_views(); !views.empty()) root_["bufferViews"] = std::move(views);
@@ -73,70 +80,10 @@ class AssetWriter {
 
   // ---- meshes ----
 
-  /// The members that all primitives of a mesh have in common.
-  json attributes_of(std::size_t m) {
-    FitOptions fit;
-    if (kept_) {
-      const PrimitiveMap::Layout& layout = kept_->map.layouts[m];
-      fit = {true, layout.targets, &layout.mat2};
-    }
-    json out = {{"attributes", json::object()}};
-    std::vector<json> targets(fit.targets, json::object());
-    bool has_targets = false;
-    for (const Fitted& fitted : fit_attributes(model_.meshes[m], fit, dropped_)) {
-      const std::size_t accessor = buffer_.add_attribute(fitted);
-      note_extensions(fitted);
-      if (fitted.target == kNone) {
-        out["attributes"][fitted.name] = accessor;
-        continue;
-      }
-      has_targets = true;
-      if (fitted.target >= targets.size()) targets.resize(fitted.target + 1, json::object());
-      targets[fitted.target][fitted.name] = accessor;
-    }
-    if (has_targets) out["targets"] = std::move(targets);
-    return out;
-  }
-
-  void note_extensions(const Fitted& attribute) {
-    for (const Extension* extension : extensions())
-      if (extension->writes_attribute && extension->writes_attribute(attribute)) {
-        extensions_used_.insert(extension->name);
-        extensions_required_.insert(extension->name);
-      }
-  }
-
-  json make_primitive(const json& attributes, const IndexList& list, const Group& group) {
-    json out = attributes;
-    out["indices"] = buffer_.add_indices(list.indices);
-    if (list.mode != Mode::triangles) out["mode"] = static_cast<int>(list.mode);
-    if (group.material < model_.scene.materials.size()) out["material"] = group.material;
-    return out;
-  }
-
-  /// What reads as a primitive without faces: valid glTF as far as there is any.
-  static IndexList without_faces(const Mesh& mesh, FaceKind kind) {
-    if (kind == FaceKind::lines)
-      return {Mode::line_strip, std::vector<Index>(mesh.wedge_count() > 0 ? 1 : 0)};
-    if (kind == FaceKind::points) return {Mode::points, {}};
-    return {Mode::strip, std::vector<Index>(mesh.wedge_count() > 0 ? 3 : 0)};
-  }
-
-  void note_face_data(const Mesh& mesh) {
-    for (const Attribute& attribute : mesh.face_attributes)
-      dropped_.push_back("face attribute " + attribute.semantic);
-    if (std::ranges::any_of(mesh.groups, [](const Group& g) { return !g.name.empty(); }))
-      dropped_.push_back("group names of mesh " + mesh.name);
-  }
-
   void restore_meshes() {
-    std::vector<json> attributes;
-    std::vector<std::vector<std::vector<IndexList>>> lists;
-    for (std::size_t m = 0; m < model_.meshes.size(); ++m) {
-      attributes.push_back(attributes_of(m));
-      lists.push_back(index_lists(model_.meshes[m], options_, dropped_));
-      note_face_data(model_.meshes[m]);
-    }
+    std::vector<std::vector<std::vector<json>>> written;
+    for (std::size_t m = 0; m < model_.meshes.size(); ++m)
+      written.push_back(meshes_.primitives(m, materials()));
     for (std::size_t i = 0; i < kept_->map.meshes.size(); ++i) {
       json& gltf_mesh = root_["meshes"][i];
       json primitives = json::array();
@@ -146,39 +93,31 @@ class AssetWriter {
           primitives.push_back(std::move(gltf_mesh["primitives"][p]));
           continue;
         }
-        const Mesh& mesh = model_.meshes[m];
+        const Mesh& mesh = meshes_.mesh(m);
         if (!mesh.name.empty()) gltf_mesh["name"] = mesh.name;
-        if (lists[m][g].empty()) lists[m][g].push_back(without_faces(mesh, mesh.groups[g].kind));
-        for (const IndexList& list : lists[m][g]) {
+        for (const json& part : written[m][g]) {
           json primitive = gltf_mesh["primitives"][p];
-          primitive.update(make_primitive(attributes[m], list, mesh.groups[g]));
+          primitive.update(part);
           primitives.push_back(std::move(primitive));
         }
       }
       gltf_mesh["primitives"] = std::move(primitives);
     }
+    drop_unmet_needs(root_, notes_);
   }
+
+  json& materials() { return root_["materials"]; }
 
   /// The place of a mesh in a new asset, kNone when it has no vertices.
   Index add_mesh(std::size_t m) {
-    const Mesh& mesh = model_.meshes[m];
-    note_face_data(mesh);
+    const Mesh& mesh = meshes_.mesh(m);
     if (mesh.wedge_count() == 0) {
-      dropped_.push_back("mesh " + mesh.name + ", which has no vertices");
+      notes_.dropped.push_back("mesh " + mesh.name + ", which has no vertices");
       return kNone;
     }
-    const json attributes = attributes_of(m);
     json primitives = json::array();
-    const auto lists = index_lists(mesh, options_, dropped_);
-    for (std::size_t g = 0; g < lists.size(); ++g)
-      for (const IndexList& list : lists[g])
-        primitives.push_back(make_primitive(attributes, list, mesh.groups[g]));
-    if (primitives.empty()) {  // vertices alone are a cloud of points
-      primitives.push_back(attributes);
-      primitives.back()["mode"] = static_cast<int>(Mode::points);
-      const Index material = mesh.groups.front().material;
-      if (material < model_.scene.materials.size()) primitives.back()["material"] = material;
-    }
+    for (auto& group : meshes_.primitives(m, materials()))
+      for (json& primitive : group) primitives.push_back(std::move(primitive));
     json out = {{"primitives", std::move(primitives)}};
     if (!mesh.name.empty()) out["name"] = mesh.name;
     root_["meshes"].push_back(std::move(out));
@@ -191,7 +130,8 @@ class AssetWriter {
     std::vector<Index> place;
     for (std::size_t m = 0; m < model_.meshes.size(); ++m) place.push_back(add_mesh(m));
     std::vector<Node> nodes = model_.scene.nodes;
-    if (nodes.empty())
+    const bool is_new = nodes.empty();
+    if (is_new)
       for (Index m = 0; m < place.size(); ++m) nodes.push_back({.name = {}, .meshes = {m}});
     json scene = json::object(), list = json::array(), more = json::array();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -199,11 +139,13 @@ class AssetWriter {
       std::vector<Index> meshes;
       for (const Index m : nodes[i].meshes)
         if (m < place.size() && place[m] != kNone) meshes.push_back(place[m]);
-      if (meshes.size() == 1) node["mesh"] = meshes.front();
-      if (meshes.size() > 1)
-        for (const Index mesh : meshes) {  // a node of glTF has one mesh
+      // A node of glTF has one mesh, and its translation is its children's, too.
+      if (meshes.size() == 1 && (is_new || !meshes_.origin()))
+        node.update(placed_mesh(meshes.front()));
+      else
+        for (const Index mesh : meshes) {
           node["children"].push_back(nodes.size() + more.size());
-          more.push_back({{"mesh", mesh}});
+          more.push_back(placed_mesh(mesh));
         }
       list.push_back(std::move(node));
       const Index parent = nodes[i].parent;
@@ -216,11 +158,18 @@ class AssetWriter {
     root_["scene"] = 0;
   }
 
+  /// The members of a node that shows a mesh where it was before its positions got an origin.
+  json placed_mesh(Index mesh) const {
+    json out = {{"mesh", mesh}};
+    if (meshes_.origin()) out["translation"] = *meshes_.origin();
+    return out;
+  }
+
   json make_node(const Node& node) {
     json out = json::object();
     if (!node.name.empty()) out["name"] = node.name;
     if (!std::ranges::all_of(node.matrix, [](double x) { return std::isfinite(x); }))
-      dropped_.push_back("the matrix of node " + node.name + ", which is not finite");
+      notes_.dropped.push_back("the matrix of node " + node.name + ", which is not finite");
     else if (node.matrix != Node{}.matrix)
       out["matrix"] = node.matrix;
     return out;
@@ -237,7 +186,7 @@ class AssetWriter {
       if (color != material.base_color || light != material.emissive ||
           share(material.metallic) != material.metallic ||
           share(material.roughness) != material.roughness)
-        dropped_.push_back("factors of material " + material.name + " beyond 0 to 1");
+        notes_.dropped.push_back("factors of material " + material.name + " beyond 0 to 1");
       pbr["baseColorFactor"] = color;
       pbr["metallicFactor"] = share(material.metallic);
       pbr["roughnessFactor"] = share(material.roughness);
@@ -258,7 +207,7 @@ class AssetWriter {
     for (const Extension* extension : extensions())
       if (extension->writes_image && extension->writes_image(model_.scene.images[image])) {
         texture["extensions"][extension->name]["source"] = image;
-        extensions_used_.insert(extension->name);
+        image_extensions_.insert(extension->name);
         return texture;
       }
     texture["source"] = image;
@@ -282,8 +231,9 @@ class AssetWriter {
         out["uri"] = encoded ? path : percent_encode(path);
       }
       if (!kept_ && !is_image_of(image, {"png", "jpg", "jpeg", "ktx2", "webp"}))
-        dropped_.push_back("image " + (image.uri.empty() ? image.name : image.uri) +
-                           " is of a format that glTF does not know; viewers may not show it");
+        notes_.dropped.push_back(
+            "image " + (image.uri.empty() ? image.name : image.uri) +
+            " is of a format that glTF does not know; viewers may not show it");
     }
   }
 
@@ -320,7 +270,8 @@ class AssetWriter {
       if (!buffer.empty() && !options_.embed)
         out.others.emplace_back(options_.buffer_name, std::move(buffer));
     }
-    out.dropped = std::move(dropped_);
+    out.dropped = std::move(notes_.dropped);
+    out.converted = std::move(notes_.converted);
     return out;
   }
 
@@ -329,8 +280,9 @@ class AssetWriter {
   std::optional<KeptAsset> kept_;
   json root_ = json::object();
   AssetBuffer buffer_;
-  std::set<std::string_view> extensions_used_, extensions_required_;  ///< beside the kept ones
-  std::vector<std::string> dropped_;
+  Notes notes_;
+  MeshWriter meshes_;
+  std::set<std::string_view> image_extensions_;  ///< used, not required
 };
 
 }  // namespace
