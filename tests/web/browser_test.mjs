@@ -102,6 +102,12 @@ test("the viewer shows a file under its strict policy, and is usable at 360 pixe
   await page.screenshot({ path: join(web, "viewer-360.png") });
   await page.setViewportSize({ width: 1000, height: 640 });
   await page.screenshot({ path: join(web, "viewer.png") });
+  for (const colours of ["arrival", "strips", "wire"]) {
+    const before = await page.screenshot();
+    await page.selectOption("#colours", colours);
+    await page.waitForFunction(() => document.getElementById("canvas").dataset.colours === document.getElementById("colours").value);
+    assert.notDeepEqual(await page.screenshot(), before, colours);
+  }
   await page.fill("#level", "500");
   await page.dispatchEvent("#level", "change");
   await page.waitForFunction(() => Number(document.getElementById("triangles").textContent.replaceAll(",", "")) < 20000);

@@ -11,7 +11,10 @@ export interface ProgressOfLevel {
   complete: boolean;
 }
 
-/** In `userData.pstrips` of a loaded group. */
+/**
+ * In `userData.pstrips` of a loaded group. Its meshes have their number in the file in `userData.index`, their geometries in
+ * `userData.wedges` how many vertices each level had.
+ */
 export interface Refinement {
   /** Settles when no more levels come; rejects with a PStripError, the last level stays. */
   done: Promise<Group>;

@@ -38,6 +38,8 @@ class LiveMesh {
     this.level = new MeshLevel(description);
     this.queue = [];
     this.geometry = new BufferGeometry();
+    // How many there were after each level: which vertices it brought.
+    this.geometry.userData.wedges = [];
     this.attributes = [];
     this.add("position", this.level.positions, 3, false);
     this.level.attributes.forEach((attribute) => {
@@ -94,6 +96,7 @@ class LiveMesh {
 
   show(patch) {
     this.level.describe(patch);
+    this.geometry.userData.wedges.push(patch.wedges);
     this.geometry.setDrawRange(0, 3 * patch.triangles);
     if (!Array.isArray(this.material)) return;
     this.geometry.clearGroups();
@@ -107,6 +110,7 @@ function sceneOf(scene, meshes, group) {
   const drawn = (i) => {
     const mesh = new Mesh(meshes[i].geometry, meshes[i].material);
     mesh.name = scene.meshes[i].name;
+    mesh.userData.index = i;
     return mesh;
   };
   if (!scene.nodes.length) {
