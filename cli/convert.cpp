@@ -11,6 +11,7 @@
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "codecs/weld/weld.h"
 #include "converters/placement.h"
 #include "core/parallel.h"
 
@@ -82,10 +83,13 @@ void report_grid(const Conversion& job) {
                             moved, job.encode.position_bits);
 }
 
-// What is unusual about the model.
-MeshStatistics statistics_of(const Model& model) {
+// What is unusual about the model as levels see it.
+MeshStatistics statistics_of(const Model& model, std::optional<double> distance) {
   MeshStatistics all;
-  for (const Mesh& mesh : model.meshes) all += mesh_statistics(mesh);
+  for (const Mesh& mesh : model.meshes) {
+    const auto welds = distance ? find_welds(mesh, *distance) : std::nullopt;
+    all += mesh_statistics(welds ? weld(mesh, *welds) : mesh);
+  }
   return all;
 }
 
@@ -173,7 +177,7 @@ Result<ProgressiveStrips> strips_of(Conversion& job, const Model& model) {
   parallel_invoke(
       job.encode.threads,
       [&] {
-        if (reports) met = statistics_of(model);
+        if (reports) met = statistics_of(model, job.encode.weld);
       },
       [&] { strips = encode(model, job.encode, job.bar.callback(), &job.simplified); });
   job.bar.clear();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <ostream>
 #include <type_traits>
@@ -16,6 +17,7 @@
 #include "converters/bounding_box.h"
 #include "converters/position_grid.h"
 #include "converters/scene_level.h"
+#include "core/numbers.h"
 
 namespace pstrips::cli {
 
@@ -213,6 +215,12 @@ void EncodeOptionsGroup::add_to(CLI::App& app) {
                                   "they fit best"))
                    ->capture_default_str(),
                {"subset", "optimal"});
+  add(kProgressiveGroup,
+      app.add_option("--weld", weld,
+                     "Vertices that are one for levels and strips: those at one place, those at "
+                     "most so far apart, or none but what the model says"))
+      ->type_name("exact|none|X")
+      ->capture_default_str();
   add(kProgressiveGroup, app.add_flag("--keep-order", options.keep_order,
                                       "Keep the order of vertices, wedges and faces"));
   takes_one_of(add_of_strips(kProgressiveGroup, app.add_option("--stripifier", options.stripifier,
@@ -300,6 +308,16 @@ Result<AttributeWeight> parse_weight(const std::string& text) {
   return out;
 }
 
+Result<std::optional<double>> parse_weld(const std::string& text) {
+  if (text == "exact") return 0.0;
+  if (text == "none") return std::nullopt;
+  double distance = -1;
+  if (!parse_number(std::string_view(text), distance) || !(distance >= 0) || std::isinf(distance))
+    return fail(ErrorCode::bad_argument,
+                "--weld takes exact, none or a distance in model units: " + text);
+  return distance;
+}
+
 Result<void> does_nothing(const std::string& option, const char* why) {
   return fail(ErrorCode::bad_argument, option + " does nothing for " + why);
 }
@@ -328,6 +346,9 @@ Result<EncodeOptions> EncodeOptionsGroup::get() const {
   out.strip_options = *strip_options;
   out.placement = placement == "optimal" ? Placement::optimal : Placement::subset;
   out.order = order == "bits" ? CollapseOrder::bits : CollapseOrder::error;
+  const auto distance = parse_weld(weld);
+  if (!distance) return tl::unexpected(distance.error());
+  out.weld = *distance;
   out.metric = metric == "memoryless" ? Metric::memoryless : Metric::qem;
   for (const std::string& text : attribute_weights) {
     auto weight = parse_weight(text);

@@ -87,7 +87,7 @@ struct StripOptionsGroup {
 };
 
 /// The options above and --profile, --position-bits, --lossless, --order, --strips, --stripifier,
-/// --level-cost, --base, --base-error, --placement, --metric, --attribute-weight, --keep-order
+/// --level-cost, --base, --base-error, --placement, --metric, --attribute-weight, --weld, --keep-order
 struct EncodeOptionsGroup {
   EncodeOptions options;
   std::string placement = "subset";
@@ -96,6 +96,7 @@ struct EncodeOptionsGroup {
   std::string strips = "offset";
   std::optional<std::string> base;
   double base_error = -1;
+  std::string weld = "exact";  ///< or none, or a distance
   std::optional<std::string> profile;
   bool lossless = false;
   std::string order = "error";

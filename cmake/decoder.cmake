@@ -1,6 +1,6 @@
 # pstrips_decoder: what shows a binary file while it arrives, without OpenSSL, tinyxml2, JSON, fmt and
 # threads. zlib computes checksums; built with PSTRIPS_WITHOUT_ZLIB it needs no library at all.
-set(PSTRIPS_DECODER_FOLDERS core vsplit filter decode pstrip_container pstrip_payload)
+set(PSTRIPS_DECODER_FOLDERS core vsplit weld filter decode pstrip_container pstrip_payload)
 # What those folders have besides: files, threads, writing.
 set(PSTRIPS_DECODER_LEAVES_OUT "/(file|equal_elements|binary_writer)\\.cpp")
 

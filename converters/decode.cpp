@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "codecs/weld/unweld.h"
 #include "converters/scene_level.h"
 
 namespace pstrips::inline converters {
@@ -52,6 +53,7 @@ void cut_mesh(ProgressiveMesh& mesh, Index vsplits, const Packet& last) {
   }
   mesh.faces = {};
   mesh.face_attribute_formats = {};
+  mesh.welding = {};
   mesh.order = {};
   mesh.digest = {};
 }
@@ -77,8 +79,9 @@ std::size_t packets_for(const ProgressiveStrips& strips, const LevelChoice& choi
 Result<Mesh> decoded_mesh(const Level& level) {
   const ProgressiveMesh& mesh = level.mesh();
   Result<Mesh> decoded = mesh_of(level);
-  const bool full = level.vertex_count() == mesh.vertices;
-  if (!decoded || !full || mesh.order.vertex.size() != mesh.vertices) return decoded;
+  if (!decoded || level.vertex_count() != mesh.vertices) return decoded;
+  if (!mesh.welding.empty()) decoded = unweld(*decoded, mesh.welding);
+  if (!decoded || mesh.order.vertex.size() != mesh.decoded_vertices()) return decoded;
   return restore_order(*decoded, mesh.order);
 }
 

@@ -12,7 +12,6 @@
 #include "codecs/compact/record_batches.h"
 #include "codecs/stripify/stripify.h"
 #include "codecs/triangulate/triangulate.h"
-#include "codecs/vsplit/faces.h"
 #include "codecs/vsplit/record.h"
 #include "converters/capacity.h"
 #include "converters/level_bounds.h"
@@ -21,11 +20,11 @@
 #include "converters/position_grid.h"
 #include "converters/scene_level.h"
 #include "converters/strip_mesh.h"
+#include "converters/welded_mesh.h"
 #include "core/equal_elements.h"
 #include "core/gather.h"
 #include "core/parallel.h"
 #include "formats/pstrip/payload/check.h"
-#include "formats/pstrip/payload/digest.h"
 
 namespace pstrips::inline converters {
 namespace {
@@ -149,16 +148,6 @@ struct Recorded {
 
 tl::unexpected<Error> interrupted() { return fail(ErrorCode::interrupted, "interrupted"); }
 
-// What makes the recording whole.
-void complete(const Mesh& mesh, const Triangulation& triangles, const StripMap& map,
-              bool keep_order, Recording& recording) {
-  FaceRecord faces = record_faces(mesh, triangles, map, recording, keep_order);
-  recording.mesh.faces = std::move(faces.faces);
-  recording.mesh.order = std::move(faces.order);
-  const Digest sum = digest(mesh_to_decode(mesh, map, recording));
-  recording.mesh.digest.assign(sum.begin(), sum.end());
-}
-
 class Encoder {
  public:
   Encoder(const Model& model, const EncodeOptions& options, const Progress& progress,
@@ -270,7 +259,9 @@ class Encoder {
       on_grid = model_.meshes[m];
       report.moved = move_to_grid(on_grid, grid_);
     }
-    const Mesh& mesh = is_on_grid() ? on_grid : model_.meshes[m];
+    const WeldedMesh welded(is_on_grid() ? on_grid : model_.meshes[m], model_.meshes[m],
+                            given ? std::nullopt : options_.weld);
+    const Mesh& mesh = welded.mesh();
     const Triangulation triangles = triangulate(mesh);
     if (!progress_.go_on("simplify", m, 0)) return interrupted();
     CollapseSequence sequence;
@@ -289,8 +280,9 @@ class Encoder {
     }
     if (!progress_.go_on("bounds", m, 0.5)) return interrupted();
     Result<Recorded> recorded =
-        maps_triangles() ? record_triangles(m, mesh, triangles, batch_options(given), sequence)
-                         : record_strips(m, mesh, triangles, sequence, std::move(bounds), threads);
+        maps_triangles()
+            ? record_triangles(m, welded, triangles, batch_options(given), sequence)
+            : record_strips(m, welded, triangles, sequence, std::move(bounds), threads);
     if (!recorded) return tl::unexpected(recorded.error());
     Encoded out = packed(m, std::move(recorded).value());
     if (given) return out;
@@ -335,7 +327,7 @@ class Encoder {
   }
 
   // bounds  of the sequence, unless empty
-  Result<Recorded> record_strips(Index m, const Mesh& mesh, const Triangulation& triangles,
+  Result<Recorded> record_strips(Index m, const WeldedMesh& welded, const Triangulation& triangles,
                                  const CollapseSequence& sequence, std::vector<ErrorBounds> bounds,
                                  unsigned threads) {
     // Of large meshes one after the other: both together take more memory than all else.
@@ -344,18 +336,20 @@ class Encoder {
     parallel_invoke(
         bytes_[m] <= kLargeBytes ? threads : 1,
         [&] {
-          if (bounds.empty()) bounds = level_bounds(mesh, triangles, sequence);
+          if (bounds.empty()) bounds = level_bounds(welded.mesh(), triangles, sequence);
         },
-        [&] { recorded = record_mesh(m, mesh, triangles, sequence, threads); });
+        [&] { recorded = record_mesh(m, welded, triangles, sequence, threads); });
     if (!recorded) return tl::unexpected(recorded.error());
     return Recorded{std::move(recorded).value(), std::move(bounds), {}};
   }
 
   // Batches put the collapses into another order, whose bounds may be larger: then it takes fewer.
-  Result<Recorded> record_triangles(Index m, const Mesh& mesh, const Triangulation& triangles,
-                                    const BatchOptions& batches, CollapseSequence& sequence) {
+  Result<Recorded> record_triangles(Index m, const WeldedMesh& welded,
+                                    const Triangulation& triangles, const BatchOptions& batches,
+                                    CollapseSequence& sequence) {
     if (triangles.corners.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
+    const Mesh& mesh = welded.mesh();
     constexpr double kStricter = 0.98;  // from time to time, so that it ends soon
     double most = options_.base_error.value_or(std::numeric_limits<double>::infinity());
     while (true) {
@@ -371,7 +365,7 @@ class Encoder {
         continue;
       }
       if (is_compact()) made.recording.mesh.grid = grid_of(mesh);
-      complete(mesh, triangles, made.map, options_.keep_order, made.recording);
+      welded.complete(triangles, made.map, options_.keep_order, made.recording);
       return Recorded{std::move(made.recording), std::move(bounds), std::move(made.batches)};
     }
   }
@@ -382,16 +376,17 @@ class Encoder {
                                                                     : integer_grid(mesh.position);
   }
 
-  Result<Recording> record_mesh(Index m, const Mesh& mesh, const Triangulation& triangles,
+  Result<Recording> record_mesh(Index m, const WeldedMesh& welded, const Triangulation& triangles,
                                 const CollapseSequence& sequence, unsigned threads) {
     if (!progress_.go_on("stripify", m, 0.65)) return interrupted();
+    const Mesh& mesh = welded.mesh();
     const StripMap strips = strip_mesh(mesh, triangles, *stripifier_, options_.strip_options,
                                        step_cost_of(mesh, triangles, sequence, threads));
     if (strips.entries.size() > kMaxCount)
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
     if (!progress_.go_on("record", m, 0.85)) return interrupted();
     Recording recording = record(mesh, strips, sequence, options_.encoding);
-    complete(mesh, triangles, strips, options_.keep_order, recording);
+    welded.complete(triangles, strips, options_.keep_order, recording);
     return recording;
   }
 

@@ -58,6 +58,9 @@ struct EncodeOptions {
   /// That a mesh may take, see check_capacity(), and that those encoded side by side may take
   /// together.
   std::uint64_t memory_bytes = Limits{}.memory_bytes;
+  /// Vertices at most so far apart, model units, are one for levels and strips, whatever the model
+  /// says: 0 those at one place. Decoding parts them again. Not given: only what the model says.
+  std::optional<double> weld = 0;
   bool keep_order = false;  ///< vertex, wedge and face order of the source
   /// Vertices a packet adds, as a share of those before it, unless it is a batch …
   double packet_growth = 1.0 / 16;

@@ -61,6 +61,8 @@ constexpr Text kTexts[] = {
     {Fault::faces_empty, "fACE says nothing"},
     {Fault::faces_missing, "faces that MESH announces are missing"},
     {Fault::face_elements, "face attribute has not one element for each face"},
+    {Fault::welding_mesh, "wELD names a mesh past the end"},
+    {Fault::welding_bits, "a width of wELD is not the least that its numbers need"},
     {Fault::order_mesh, "oRDP names a mesh past the end"},
     {Fault::order_rotation_bits, "rotation_bits is not the least that the rotations need"},
     {Fault::packed_padding, "bits after a packed array are not zero"},
@@ -100,6 +102,7 @@ constexpr Text kTexts[] = {
     {Fault::replaced_triangle, "face replaces a triangle past the end"},
     {Fault::replaced_twice, "triangle is replaced twice"},
     {Fault::face_count, "number of faces contradicts the triangles and the face table"},
+    {Fault::welding_counts, "more welded than the mesh has"},
     {Fault::order_vertex, "order of the vertices is not a permutation"},
     {Fault::order_wedge, "order of the wedges is not a permutation"},
     {Fault::order_face, "order of the faces is not a permutation"},
@@ -204,6 +207,8 @@ std::string path_of(const Where& where) {
     case Field::face_group:
     case Field::replaced_first:
       return in_mesh("/faces/");
+    case Field::welding:
+      return mesh + "/welding";
     case Field::order:
       return mesh + "/order";
     case Field::order_vertex:

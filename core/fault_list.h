@@ -41,7 +41,8 @@ enum class Field : std::uint8_t {
   face_group,
   replaced_first,
   replaced,
-  order,  ///< oRDP
+  welding,  ///< wELD
+  order,    ///< oRDP
   order_vertex,
   order_wedge,
   order_face,

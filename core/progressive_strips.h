@@ -64,6 +64,26 @@ struct OriginalOrder {
   friend bool operator==(const OriginalOrder&, const OriginalOrder&) = default;
 };
 
+/// What base and records take for one vertex or one wedge though the decoded mesh has several: they
+/// stand at one place, and these wedges say the same. [spec/model.md §11]
+struct Welding {
+  Index vertices = 0, wedges = 0;  ///< of the decoded mesh; 0: nothing is welded
+  // A number for each wedge that stands for several, ascending.
+  std::vector<Index> skip;  ///< how many that stand for themselves come before it
+  std::vector<Index> more;  ///< how many it stands for, less two
+  /// Of each corner of such a wedge: 0 for the next of those that it stands for (the last when all
+  /// have been named), else one more than the number of one that has been named.
+  std::vector<Index> corner;
+  /// Of each decoded wedge that shares its welded vertex with others: 0 for a vertex of its own,
+  /// else one more than the number of one that came there before.
+  std::vector<Index> vertex;
+  std::vector<Index> moved;  ///< decoded vertices that stand elsewhere than welded, ascending
+  Attribute moved_position;  ///< where
+
+  bool empty() const { return wedges == 0; }
+  friend bool operator==(const Welding&, const Welding&) = default;
+};
+
 /// A grid on which positions lie, or nearly. [spec/compact.md §3]
 struct PositionGrid {
   float step = 0;  ///< in model units; 0: there is no grid
@@ -115,8 +135,15 @@ struct ProgressiveMesh {
   // At full resolution.
   Index vertices = 0, wedges = 0, triangles = 0, strips = 0;
   FaceTable faces;
+  Welding welding;
   OriginalOrder order;            ///< empty lists: the order was not kept
   std::vector<std::byte> digest;  ///< SHA-256 of the decoded mesh, or empty
+
+  /// Of the decoded mesh.
+  Index decoded_vertices() const { return welding.empty() ? vertices : welding.vertices; }
+  Index decoded_wedges() const { return welding.empty() ? wedges : welding.wedges; }
+  /// Whether vertices of the decoded mesh have wedges in an order of their own.
+  bool orders_wedges() const { return !single_wedges || !welding.empty(); }
 
   friend bool operator==(const ProgressiveMesh&, const ProgressiveMesh&) = default;
 };

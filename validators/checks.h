@@ -32,7 +32,8 @@ Check wedge_vertices_exist, vertices_have_wedges, map_wedges_exist, symbols_allo
 Check full_counts_reached, triangle_groups_exist, triangles_of_groups_counted;
 Check face_bounds, face_corners_exist, face_groups_exist, replaced_bounds, replaced_exist,
     replaced_once, replaced_in_group, faces_counted, faces_needed;
-Check order_vertices, order_wedges, order_faces, rotations, digest_matches;
+Check welding_counts, welding_fits, order_vertices, order_wedges, order_faces, rotations,
+    digest_matches;
 
 // checks_scene.cpp
 Check node_parents, node_meshes, material_images, images_there, foreign_keys_differ;

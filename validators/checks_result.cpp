@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 
 #include "codecs/vsplit/level.h"
+#include "codecs/weld/unweld.h"
 #include "formats/pstrip/container/chunk_table.h"
 #include "formats/pstrip/payload/check.h"
 #include "formats/pstrip/payload/digest.h"
@@ -72,6 +74,18 @@ std::vector<Index> groups_of_triangles(const ProgressiveMesh& mesh, const Replay
 bool is_sound(const ProgressiveStrips& strips, Index mesh) {
   FirstFault ignored;
   return strips.meshes[mesh].faces.empty() || check_faces(strips, mesh, ignored);
+}
+
+/// The last level with the face table; nothing where that is another rule's.
+std::optional<Mesh> full_level(const Document& doc, Index m) {
+  const ProgressiveMesh& mesh = doc.strips.meshes[m];
+  if (!doc.replays[m].finished || !is_sound(doc.strips, m)) return std::nullopt;
+  if (mesh.triangles != doc.replays[m].levels.back().triangles) return std::nullopt;
+  Level level(mesh);
+  level.refine_fully();
+  Result<Mesh> shown = mesh_of(level);
+  if (!shown || !find_inconsistency(*shown).empty()) return std::nullopt;
+  return std::move(shown).value();
 }
 
 }  // namespace
@@ -202,14 +216,15 @@ void faces_needed(const Document& doc, Findings& out) {
 void order_vertices(const Document& doc, Findings& out) {
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
     if (has_order(mesh))
-      permutation(mesh.order.vertex, mesh.vertices, {.field = Field::order_vertex, .mesh = m}, out);
+      permutation(mesh.order.vertex, mesh.decoded_vertices(),
+                  {.field = Field::order_vertex, .mesh = m}, out);
   });
 }
 
 void order_wedges(const Document& doc, Findings& out) {
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
     if (has_order(mesh))
-      permutation(mesh.order.wedge, mesh.single_wedges ? 0 : mesh.wedges,
+      permutation(mesh.order.wedge, mesh.orders_wedges() ? mesh.decoded_wedges() : 0,
                   {.field = Field::order_wedge, .mesh = m}, out);
   });
 }
@@ -238,15 +253,28 @@ void rotations(const Document& doc, Findings& out) {
   });
 }
 
+void welding_counts(const Document& doc, Findings& out) {
+  noticed<Fault::welding_counts>(doc, out);
+  for (Index m = 0; m < doc.strips.meshes.size(); ++m)
+    if (!has_possible_welding(doc.strips.meshes[m])) out.add({.field = Field::welding, .mesh = m});
+}
+
+void welding_fits(const Document& doc, Findings& out) {
+  for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
+    if (mesh.welding.empty() || !has_possible_welding(mesh)) return;
+    const std::optional<Mesh> shown = full_level(doc, m);
+    if (shown && !unweld(*shown, mesh.welding)) out.add({.field = Field::welding, .mesh = m});
+  });
+}
+
 void digest_matches(const Document& doc, Findings& out) {
   for_each_mesh(doc, [&](Index m, const ProgressiveMesh& mesh) {
-    if (mesh.digest.empty() || !doc.replays[m].finished || !is_sound(doc.strips, m)) return;
-    if (mesh.triangles != doc.replays[m].levels.back().triangles) return;  // another rule's
-    Level level(mesh);
-    level.refine_fully();
-    const Result<Mesh> decoded = mesh_of(level);
-    if (!decoded || !find_inconsistency(*decoded).empty()) return;  // another rule's
-    if (!std::ranges::equal(digest(*decoded), mesh.digest))
+    if (mesh.digest.empty()) return;
+    const std::optional<Mesh> shown = full_level(doc, m);
+    if (!shown) return;
+    const Result<Mesh> decoded =
+        mesh.welding.empty() ? Result<Mesh>(*shown) : unweld(*shown, mesh.welding);
+    if (decoded && !std::ranges::equal(digest(*decoded), mesh.digest))
       out.add({.field = Field::digest, .mesh = m});
   });
 }

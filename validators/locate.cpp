@@ -165,6 +165,17 @@ class Locator {
         return in_faces(&mesh.faces.replaced_first, ", face ");
       case Field::replaced:
         return in_faces(&mesh.faces.replaced, ", replaced triangle ");
+      case Field::welding:
+        return chunk(find(kWeldingChunk));
+      case Field::digest:
+        return chunk(find(kDigestChunk));
+      default:
+        return in_order();
+    }
+  }
+  Location in_order() const {
+    const ProgressiveMesh& mesh = doc_.strips.meshes[where_.mesh];
+    switch (where_.field) {
       case Field::order:
         return chunk(find(kOrderChunk));
       case Field::order_vertex:
@@ -175,8 +186,6 @@ class Locator {
         return in_extra(OrderPayload{}, &mesh.order.face, ", face ");
       case Field::rotation:
         return in_extra(OrderPayload{}, &mesh.order.rotation, ", rotation ");
-      case Field::digest:
-        return chunk(find(kDigestChunk));
       default:
         return {};
     }

@@ -12,7 +12,7 @@ SIGNATURE = bytes.fromhex("8A5053540D0A1A0A")  # container.md 1
 # container.md 4. C-016 says more of those that share a rank.
 ORDER = [
     {b"PSHD"}, {b"sCNE"}, {b"mTRL"}, {b"MESH"}, {b"PIDX"}, {b"BASE"}, {b"PCKT"},
-    {b"FINE", b"fACE", b"oRDP", b"dGST"}, {b"iMGE"}, {b"fRGN"}, {b"PEND"},
+    {b"FINE", b"fACE", b"wELD", b"oRDP", b"dGST"}, {b"iMGE"}, {b"fRGN"}, {b"PEND"},
 ]
 RANK = {name: rank for rank, names in enumerate(ORDER) for name in names}
 
@@ -297,6 +297,27 @@ def read_face(chunk, meshes):
     return number, table
 
 
+def read_weld(chunk, meshes):
+    """container.md 8.4: (mesh, welding)."""
+    payload = Payload(chunk.payload)
+    number = payload.u32()
+    require(number < len(meshes), "C-072")
+    mesh = meshes[number]
+    welding = mesh.welding = model.Welding(payload.u32(), payload.u32())
+    welded, corners, numbered, moved = (payload.u32() for _ in range(4))
+    widths = [payload.u8() for _ in range(4)]
+    model.check_welding_counts(mesh, welding, (welded, corners, numbered, moved))
+    for name, count, bits in zip(("skip", "more", "corner", "vertex"),
+                                 (welded, welded, corners, numbered), widths):
+        numbers = payload.packed(count, bits)
+        require(max(numbers, default=0).bit_length() == bits, "C-073")
+        setattr(welding, name, numbers)
+    welding.moved = payload.u32s(moved)
+    welding.moved_position = payload.elements(moved, mesh.position)
+    payload.end()
+    return number, welding
+
+
 def read_ordp(chunk, meshes):
     """container.md 8.2: (mesh, original order)."""
     payload = Payload(chunk.payload)
@@ -306,9 +327,10 @@ def read_ordp(chunk, meshes):
     require(rotation_bits <= 32, "C-065")
     mesh = meshes[number]
     order = model.Order()
-    order.vertex = payload.packed(mesh.vertices, max(mesh.vertices - 1, 0).bit_length())
-    if not mesh.single_wedges:
-        order.wedge = payload.packed(mesh.wedges, max(mesh.wedges - 1, 0).bit_length())
+    vertices, wedges = mesh.decoded_counts()
+    order.vertex = payload.packed(vertices, max(vertices - 1, 0).bit_length())
+    if mesh.welding or not mesh.single_wedges:
+        order.wedge = payload.packed(wedges, max(wedges - 1, 0).bit_length())
     order.face = payload.packed(mesh.faces, max(mesh.faces - 1, 0).bit_length())
     order.rotation = payload.packed(mesh.faces, rotation_bits)
     payload.end()

@@ -88,6 +88,13 @@ class Mesh:
     base_vertices: int = 0
     base_wedges: int = 0
     grid: Grid = None
+    explicit_corners: int = 0
+    welding: object = None
+
+    def decoded_counts(self):
+        """Vertices and wedges of the decoded mesh (model.md 11)."""
+        mesh = self.welding or self
+        return mesh.vertices, mesh.wedges
 
     def lists_groups(self):
         """Whether there is a triangle_group (model.md 4)."""
@@ -104,6 +111,20 @@ class FaceTable:
     replaced_first: list = None
     replaced: list = None
     attributes: list = None
+
+
+@dataclasses.dataclass
+class Welding:
+    """model.md 11."""
+
+    vertices: int
+    wedges: int
+    skip: list = None
+    more: list = None
+    corner: list = None
+    vertex: list = None
+    moved: list = None
+    moved_position: list = None
 
 
 @dataclasses.dataclass
@@ -368,21 +389,119 @@ def faces(mesh, state, table):
 
 def check_orders(mesh, order, decoded):
     """model.md 7."""
-    for numbers, count, clause in ((order.vertex, mesh.vertices, "M-040"),
+    vertices, wedges = mesh.decoded_counts()
+    for numbers, count, clause in ((order.vertex, vertices, "M-040"),
                                    (order.face, mesh.faces, "M-042"),
-                                   (order.wedge, mesh.wedges, "M-041")):
+                                   (order.wedge, wedges, "M-041")):
         if numbers is not None:
             require(sorted(numbers) == list(range(count)), clause)
     for rotation, face in zip(order.rotation, decoded):
         require(rotation < max(len(face.corners), 1), "M-043")
 
 
+@dataclasses.dataclass
+class Decoded:
+    """What a digest is of: a mesh after the face table and the welding."""
+
+    position: list
+    vertex_of: list
+    attributes: list
+    faces: list
+
+
+def check_welding_counts(mesh, welding, lengths):
+    """M-047, before lists of those lengths are read."""
+    corners = 3 * mesh.triangles + mesh.explicit_corners
+    welded, cornered, numbered, moved = lengths
+    require(0 < welding.wedges <= mesh.wedges + corners, "M-047")
+    require(welding.vertices <= welding.wedges and welded <= mesh.wedges, "M-047")
+    require(cornered <= corners and numbered <= welding.wedges, "M-047")
+    require(moved <= welding.vertices, "M-047")
+
+
+def copies_of_wedges(wedges, welding):
+    """How many decoded wedges each wedge stands for."""
+    require(len(welding.skip) == len(welding.more), "M-046")
+    copies = [1] * wedges
+    at = -1
+    for skip, more in zip(welding.skip, welding.more):
+        at += skip + 1
+        require(at < wedges, "M-046")
+        copies[at] = more + 2
+    require(sum(copies) == welding.wedges, "M-046")
+    return copies
+
+
+def part_corners(decoded, copies, welding):
+    """The faces with decoded wedges."""
+    first = [0]
+    for count in copies:
+        first.append(first[-1] + count)
+    named = [0 if count > 1 else 1 for count in copies]
+    numbers = iter(welding.corner)
+
+    def part(wedge):
+        if copies[wedge] == 1:
+            return first[wedge]
+        number = next(numbers, None)
+        require(number is not None and number <= named[wedge], "M-046")
+        if number > 0:
+            return first[wedge] + number - 1
+        if named[wedge] < copies[wedge]:
+            named[wedge] += 1
+            return first[wedge] + named[wedge] - 1
+        return first[wedge] + copies[wedge] - 1
+
+    out = [Face(tuple(part(wedge) for wedge in face.corners), face.group) for face in decoded]
+    require(next(numbers, None) is None and named == copies, "M-046")
+    return out
+
+
+def part_vertices(vertex_of, owner, welding):
+    """The vertex of each decoded wedge, and the welded vertex of each decoded vertex."""
+    welded = [vertex_of[wedge] for wedge in owner]
+    shares = [0] * (max(welded, default=-1) + 1)
+    for vertex in welded:
+        shares[vertex] += 1
+    there = [[] for _ in shares]
+    vertices, vertex_from = [], []
+    numbers = iter(welding.vertex)
+    for vertex in welded:
+        number = next(numbers, None) if shares[vertex] > 1 else 0
+        require(number is not None and number <= len(there[vertex]), "M-046")
+        if number == 0:
+            there[vertex].append(len(vertex_from))
+            vertex_from.append(vertex)
+        vertices.append(there[vertex][number - 1])
+    require(next(numbers, None) is None and len(vertex_from) == welding.vertices, "M-046")
+    return vertices, vertex_from
+
+
+def unweld(mesh, state, decoded):
+    """The decoded mesh (model.md 11)."""
+    welding = mesh.welding
+    if welding is None:
+        return Decoded(state.position, state.vertex_of, state.attributes, decoded)
+    copies = copies_of_wedges(len(state.vertex_of), welding)
+    owner = [wedge for wedge, count in enumerate(copies) for _ in range(count)]
+    faces_there = part_corners(decoded, copies, welding)
+    vertex_of, vertex_from = part_vertices(state.vertex_of, owner, welding)
+    position = [state.position[vertex] for vertex in vertex_from]
+    require(welding.moved == sorted(set(welding.moved)), "M-046")
+    for vertex, place in zip(welding.moved, welding.moved_position):
+        require(vertex < len(position), "M-046")
+        position[vertex] = place
+    attributes = [[elements[wedge] for wedge in owner] for elements in state.attributes]
+    return Decoded(position, vertex_of, attributes, faces_there)
+
+
 def u32s(numbers):
     return struct.pack(f"<{len(numbers)}I", *numbers)
 
 
-def digest(mesh, state, decoded, face_attributes):
-    """The SHA-256 of model.md 8. decoded: the faces; face_attributes: elements, one list each."""
+def digest(mesh, state, face_attributes):
+    """The SHA-256 of model.md 8. state: a Decoded; face_attributes: elements, one list each."""
+    decoded = state.faces
     corners = [corner for face in decoded for corner in face.corners]
     sha = hashlib.sha256(b"PSTMESH1")
     sha.update(u32s([len(state.position), len(state.vertex_of), len(decoded), len(corners),

@@ -102,12 +102,14 @@ class File:
         self.read_rest()
 
     def read_rest(self):
-        """FINE, fACE, oRDP and dGST (container.md 8, C-016)."""
+        """FINE, fACE, wELD, oRDP and dGST (container.md 8, C-016)."""
         before = (-1, -1)
         readers = {b"FINE": self.decoder.read_fine, b"fACE": self.decoder.read_face,
-                   b"oRDP": container.read_ordp, b"dGST": container.read_dgst}
+                   b"wELD": container.read_weld, b"oRDP": container.read_ordp,
+                   b"dGST": container.read_dgst}
         orders = {}
-        results = {b"FINE": {}, b"fACE": self.tables, b"oRDP": orders, b"dGST": self.digests}
+        results = {b"FINE": {}, b"fACE": self.tables, b"wELD": {}, b"oRDP": orders,
+                   b"dGST": self.digests}
         for chunk in self.chunks:
             if chunk.type in readers:
                 number, result = readers[chunk.type](chunk, self.meshes)
@@ -115,6 +117,8 @@ class File:
                 require(before < place, "C-016")
                 before = place
                 results[chunk.type][number] = result
+                if chunk.type == b"fACE":
+                    self.meshes[number].explicit_corners = len(result.corners)
         self.decoder.check_fine()
         for number, mesh in enumerate(self.meshes):
             table = self.tables.get(number)
@@ -131,8 +135,12 @@ class File:
     def digest(self, number):
         """Of the level that was decoded; face attributes are those of full resolution."""
         table = self.tables.get(number)
-        return model.digest(self.meshes[number], self.decoder.level(number), self.faces(number),
+        return model.digest(self.meshes[number], self.decoded(number),
                             table.attributes if table else [])
+
+    def decoded(self, number):
+        """The decoded mesh; of a level the welded one."""
+        return model.unweld(self.meshes[number], self.decoder.level(number), self.faces(number))
 
 
 def comparison(file, number):
@@ -146,9 +154,9 @@ def report(path, packets):
     file = File(path.read_bytes(), packets)
     good = True
     for number in range(len(file.meshes)):
-        state = file.decoder.states[number]
+        decoded = file.decoded(number)
         verdict = comparison(file, number)
-        print(path, number, len(state.position), len(state.vertex_of), len(file.faces(number)),
+        print(path, number, len(decoded.position), len(decoded.vertex_of), len(decoded.faces),
               file.digest(number).hex(), verdict)
         good = good and verdict != "differs"
     return good

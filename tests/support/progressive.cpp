@@ -5,7 +5,9 @@
 #include <numeric>
 #include <random>
 
+#include "codecs/weld/unweld.h"
 #include "formats/pstrip/payload/digest.h"
+#include "tests/support/random_welding.h"
 
 namespace pstrips::test {
 namespace {
@@ -289,15 +291,15 @@ void make_faces(RandomSource& random, const std::vector<Triangle>& triangles,
                 2 * (triangles.size() - faces.replaced.size() + faces.count()));
 }
 
-void make_order(RandomSource& random, const ProgressiveOptions& options, ProgressiveMesh& mesh) {
+void make_order(RandomSource& random, ProgressiveMesh& mesh) {
   const auto permutation = [&](std::size_t n) {
     std::vector<Index> out(n);
     std::iota(out.begin(), out.end(), Index{0});
     random.shuffle(out);
     return out;
   };
-  mesh.order.vertex = permutation(mesh.vertices);
-  if (!options.single_wedges) mesh.order.wedge = permutation(mesh.wedges);
+  mesh.order.vertex = permutation(mesh.decoded_vertices());
+  if (mesh.orders_wedges()) mesh.order.wedge = permutation(mesh.decoded_wedges());
   const std::size_t triangles = mesh.triangles - mesh.faces.replaced.size();
   mesh.order.face = permutation(triangles + mesh.faces.count());
   for (std::size_t f = 0; f < mesh.order.face.size(); ++f)
@@ -337,9 +339,13 @@ ProgressiveMesh make_mesh(RandomSource& random, const ProgressiveOptions& option
   mesh.triangles = static_cast<Index>(triangles.size());
   mesh.strips = strips_with_triangles(triangles);
   if (options.faces) make_faces(random, triangles, mesh);
-  if (options.order) make_order(random, options, mesh);
+  const bool is_welded = options.welding && mesh.wedges > 0;
+  if (is_welded)
+    mesh.welding = random_welding(decode_slowly(mesh, mesh.vsplits.size()), random.below(1u << 31));
+  if (options.order) make_order(random, mesh);
   if (options.digest) {
-    const Digest d = digest(decode_slowly(mesh, mesh.vsplits.size()));
+    const Mesh shown = decode_slowly(mesh, mesh.vsplits.size());
+    const Digest d = digest(is_welded ? unweld(shown, mesh.welding).value() : shown);
     mesh.digest.assign(d.begin(), d.end());
   }
   return mesh;
@@ -407,7 +413,7 @@ ProgressiveStrips random_progressive_of_any_kind(std::uint32_t seed) {
   options.encoding = static_cast<MapEncoding>(random.below(3));
   options.placement = static_cast<Placement>(random.below(2));
   for (bool* choice : {&options.single_wedges, &options.scene, &options.faces, &options.order,
-                       &options.digest, &options.unknown})
+                       &options.digest, &options.unknown, &options.welding})
     *choice = random.one_in(2);
   return random_progressive(random.below(1u << 31), options);
 }

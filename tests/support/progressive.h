@@ -15,9 +15,10 @@ struct ProgressiveOptions {
   MapEncoding encoding = MapEncoding::naive;
   Placement placement = Placement::subset;
   bool single_wedges = true;
-  bool scene = false;  ///< generator, nodes, materials, images, foreign entries
-  bool faces = false;  ///< polygons, lines and face attributes beside the strips
-  bool order = false;  ///< a random original order
+  bool scene = false;    ///< generator, nodes, materials, images, foreign entries
+  bool faces = false;    ///< polygons, lines and face attributes beside the strips
+  bool welding = false;  ///< of meshes that have wedges
+  bool order = false;    ///< a random original order
   bool digest = false;
   bool unknown = false;  ///< chunks that nobody knows
 };
@@ -32,7 +33,7 @@ ProgressiveStrips random_progressive_of_any_kind(std::uint32_t seed);
 
 /// The mesh after the first `vsplits` records, straight from spec/vsplit.md, slowly. At full
 /// resolution with the face table applied, otherwise the triangles alone. Names, groups and decoded
-/// numbering; the original order is not applied.
+/// numbering; neither welding nor original order is applied.
 Mesh decode_slowly(const ProgressiveMesh& mesh, std::size_t vsplits);
 
 /// Recounts triangles and strips of every level of every mesh, e.g. after a test edited records.

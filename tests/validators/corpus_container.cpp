@@ -225,6 +225,17 @@ constexpr Case kCases[] = {
      [] { return recut(scene(), [](ChunkFile& f) { f.put("iMGE", 0, 0u); }); }},
     {"PS1071_image_missing.pstrip",
      [] { return settled(scene(), [](ChunkFile& f) { erase(f, "iMGE"); }); }},
+    {"PS1072_welding_of_no_mesh.pstrip",
+     [] { return recut(welded(), [](ChunkFile& f) { f.put("wELD", 0, 1u); }); }},
+    {"PS1073_a_bit_too_many.pstrip",
+     [] {
+       return recut(welded(), [](ChunkFile& f) {
+         f.put("wELD", 31, std::uint8_t{2});
+         f.put("wELD", 40, std::uint8_t{1 << 6});  // the same numbers
+       });
+     }},
+    {"PS1073_33_bits.pstrip",
+     [] { return recut(welded(), [](ChunkFile& f) { f.put("wELD", 28, std::uint8_t{33}); }); }},
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tests/validators/samples.h"
 
+#include "codecs/weld/unweld.h"
 #include "formats/pstrip/payload/digest.h"
 #include "tests/support/progressive.h"
 
@@ -7,7 +8,8 @@ namespace pstrips::test {
 
 void set_digests(ProgressiveStrips& strips) {
   for (ProgressiveMesh& mesh : strips.meshes) {
-    const Digest d = digest(decode_slowly(mesh, mesh.vsplits.size()));
+    const Mesh shown = decode_slowly(mesh, mesh.vsplits.size());
+    const Digest d = digest(mesh.welding.empty() ? shown : unweld(shown, mesh.welding).value());
     mesh.digest.assign(d.begin(), d.end());
   }
 }
@@ -150,6 +152,34 @@ ProgressiveStrips compact() {
   strips.packets = {{.vsplits = 1, .error = 0.25f, .one_sided_error = 0.125f},
                     {.first_vsplit = 1, .vsplits = 1},
                     {.first_vsplit = 2, .vsplits = 1}};
+  recount_levels(strips);
+  set_digests(strips);
+  return strips;
+}
+
+ProgressiveStrips welded() {
+  ProgressiveMesh mesh;
+  mesh.groups.resize(1);
+  mesh.group_entries = {4};
+  mesh.position = {"POSITION", ComponentType::f32, 3, false, {}};
+  mesh.position.data = bytes_of({0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f});
+  mesh.base_vertices = mesh.base_wedges = mesh.vertices = mesh.wedges = 4;
+  mesh.base_map = {0, 1, 2, 3};
+  mesh.triangles = 2;
+  mesh.strips = 1;
+  // The first vertex stays; of the second there are two, of the third two wedges.
+  mesh.welding = {.vertices = 5,
+                  .wedges = 6,
+                  .skip = {1, 0},
+                  .more = {0, 0},
+                  .corner = {0, 0, 0, 0},
+                  .vertex = {0, 0, 0, 1},
+                  .moved = {1},
+                  .moved_position = mesh.position.format()};
+  mesh.welding.moved_position.data = bytes_of({1.f, -0.f, 0.f});
+  ProgressiveStrips strips;
+  strips.meshes.push_back(std::move(mesh));
+  strips.bases = {{}};
   recount_levels(strips);
   set_digests(strips);
   return strips;

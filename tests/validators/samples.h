@@ -37,6 +37,9 @@ ProgressiveStrips compact();
 /// the last bits.
 ProgressiveStrips batches();
 
+/// Two triangles whose corners are six wedges of five vertices, welded into four.
+ProgressiveStrips welded();
+
 /// The seam without faces, order and digest.
 ProgressiveStrips bare_seam();
 

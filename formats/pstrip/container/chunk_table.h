@@ -17,6 +17,7 @@ inline constexpr ChunkType kBaseChunk = chunk_type("BASE");
 inline constexpr ChunkType kPacketChunk = chunk_type("PCKT");
 inline constexpr ChunkType kFineChunk = chunk_type("FINE");
 inline constexpr ChunkType kFacesChunk = chunk_type("fACE");
+inline constexpr ChunkType kWeldingChunk = chunk_type("wELD");
 inline constexpr ChunkType kOrderChunk = chunk_type("oRDP");
 inline constexpr ChunkType kDigestChunk = chunk_type("dGST");
 inline constexpr ChunkType kImageChunk = chunk_type("iMGE");
@@ -47,6 +48,7 @@ inline constexpr ChunkKind kChunkKinds[] = {
     {kPacketChunk, 6, ChunkOf::packet, Part::container},
     {kFineChunk, 7, ChunkOf::mesh, Part::fine},
     {kFacesChunk, 7, ChunkOf::mesh, Part::faces},
+    {kWeldingChunk, 7, ChunkOf::mesh, Part::welding},
     {kOrderChunk, 7, ChunkOf::mesh, Part::order},
     {kDigestChunk, 7, ChunkOf::mesh, Part::digest},
     {kImageChunk, 8, ChunkOf::image, Part::images},

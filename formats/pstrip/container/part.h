@@ -29,6 +29,7 @@ enum class Part : std::uint8_t {
   new_triangles,  ///< what vsplits append to a map of triangles
   fine,           ///< FINE: bits below the cells that packets bring
   faces,          ///< fACE
+  welding,        ///< wELD
   order,          ///< oRDP
   digest,         ///< dGST
   scene,          ///< sCNE, mTRL
@@ -83,6 +84,7 @@ inline constexpr PartDescription kParts[] = {
     {Part::new_triangles, "new_triangles", PartGroup::connectivity},
     {Part::fine, "fine", PartGroup::fine},
     {Part::faces, "faces", PartGroup::faces},
+    {Part::welding, "welding", PartGroup::faces},
     {Part::order, "order", PartGroup::order},
     {Part::digest, "digest", PartGroup::container},
     {Part::scene, "scene", PartGroup::scene},

@@ -209,11 +209,16 @@ bool check_mesh(const ProgressiveStrips& strips, Index m, FaultSink& faults) {
   return check_mesh_header(strips, m, entries, faults) && check_base(strips, m, faults);
 }
 
+bool check_welding(const ProgressiveMesh& mesh, Index m, FaultSink& faults) {
+  return has_possible_welding(mesh) ||
+         MeshFaults(m, faults).report(Fault::welding_counts, Field::welding);
+}
+
 bool check_extras(const ProgressiveStrips& strips, Index m, FaultSink& faults) {
   const ProgressiveMesh& mesh = strips.meshes[m];
   const bool expected = strips.complete && !mesh.face_attribute_formats.empty();
   if ((expected || !mesh.faces.empty()) && !check_faces(strips, m, faults)) return false;
-  if (!check_order(strips, m, faults)) return false;
+  if (!check_welding(mesh, m, faults) || !check_order(strips, m, faults)) return false;
   constexpr std::size_t kDigestBytes = 32;
   if (!mesh.digest.empty() && mesh.digest.size() != kDigestBytes)
     return MeshFaults(m, faults).report(Fault::digest_length);
@@ -369,10 +374,10 @@ bool check_order(const ProgressiveStrips& strips, Index index, FaultSink& sink) 
   MeshFaults faults(index, sink);
   const Index faces = face_count(mesh);
   if (order == OriginalOrder{}) return true;
-  if (!check_permutation(order.vertex, mesh.vertices, Fault::order_vertex, Field::order_vertex,
-                         faults) ||
-      !check_permutation(order.wedge, mesh.single_wedges ? 0 : mesh.wedges, Fault::order_wedge,
-                         Field::order_wedge, faults) ||
+  if (!check_permutation(order.vertex, mesh.decoded_vertices(), Fault::order_vertex,
+                         Field::order_vertex, faults) ||
+      !check_permutation(order.wedge, mesh.orders_wedges() ? mesh.decoded_wedges() : 0,
+                         Fault::order_wedge, Field::order_wedge, faults) ||
       !check_permutation(order.face, faces, Fault::order_face, Field::order_face, faults))
     return false;
   if (order.rotation.size() != faces) return faults.report(Fault::rotation, Field::order);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <tuple>
@@ -121,6 +122,103 @@ struct FacesPayload : ExtraDefaults<FacesHead> {
   }
 };
 
+struct WeldingHead {
+  Index mesh = 0, vertices = 0, wedges = 0;
+  Index welded = 0, corners = 0, numbered = 0, moved = 0;  ///< lengths of lists
+  std::uint8_t skip_bits = 0, more_bits = 0, corner_bits = 0, vertex_bits = 0;
+};
+
+struct WeldingPayload : ExtraDefaults<WeldingHead> {
+  using Head = WeldingHead;
+  static constexpr ChunkType kType = kWeldingChunk;
+  static constexpr Fault kNoSuchMesh = Fault::welding_mesh;
+
+  static bool is_needed(const ProgressiveMesh& mesh) { return !mesh.welding.empty(); }
+  static Head head_of(const ProgressiveMesh& mesh, Index index) {
+    const Welding& w = mesh.welding;
+    return {index,
+            w.vertices,
+            w.wedges,
+            static_cast<Index>(w.skip.size()),
+            static_cast<Index>(w.corner.size()),
+            static_cast<Index>(w.vertex.size()),
+            static_cast<Index>(w.moved.size()),
+            bits_of(w.skip),
+            bits_of(w.more),
+            bits_of(w.corner),
+            bits_of(w.vertex)};
+  }
+
+  template <class Io, class H>
+  static void head_fields(Io& io, H& h) {
+    io.number(h.mesh);
+    io.number(h.vertices);
+    io.number(h.wedges);
+    io.number(h.welded);
+    io.number(h.corners);
+    io.number(h.numbered);
+    io.number(h.moved);
+    io.number(h.skip_bits);
+    io.number(h.more_bits);
+    io.number(h.corner_bits);
+    io.number(h.vertex_bits);
+  }
+  template <class Io, class M>
+  static void body_fields(Io& io, const Head& h, const MeshCounts&, M& mesh) {
+    auto& welding = mesh.welding;
+    if constexpr (Io::kReads) {
+      welding.vertices = h.vertices;
+      welding.wedges = h.wedges;
+    }
+    io.packed(welding.skip, h.skip_bits, h.welded);
+    io.align();
+    io.packed(welding.more, h.more_bits, h.welded);
+    io.align();
+    io.packed(welding.corner, h.corner_bits, h.corners);
+    io.align();
+    io.packed(welding.vertex, h.vertex_bits, h.numbered);
+    io.align();
+    io.run(welding.moved, 0, h.moved);
+    io.align();
+    io.run(welding.moved_position, 0, h.moved);
+    io.align();
+  }
+
+  static void prepare(ProgressiveMesh& mesh) {
+    mesh.welding = {};
+    mesh.welding.moved_position = mesh.position.format();
+  }
+  static void clear(ProgressiveMesh& mesh) { mesh.welding = {}; }
+
+  static Broken broken_head(const Head& head) {
+    if (std::max({head.skip_bits, head.more_bits, head.corner_bits, head.vertex_bits}) <= 32)
+      return {};
+    return {Fault::welding_bits};
+  }
+  /// Numbers of no bits take nothing in the file: how many there are is checked.
+  static Fault broken_length(const Head& head, const ProgressiveMesh& mesh,
+                             const MeshCounts& counts, std::uint64_t) {
+    const WeldingSizes sizes{head.vertices, head.wedges,   head.welded,
+                             head.corners,  head.numbered, head.moved};
+    const bool fits = is_possible(sizes, counts.wedges, counts.triangles, mesh.faces);
+    return fits ? Fault::none : Fault::welding_counts;
+  }
+  static Broken broken_body(const Head& head, const ProgressiveMesh& mesh) {
+    const Head least = head_of(mesh, head.mesh);
+    const bool fits = least.skip_bits == head.skip_bits && least.more_bits == head.more_bits &&
+                      least.corner_bits == head.corner_bits &&
+                      least.vertex_bits == head.vertex_bits;
+    return {fits ? Fault::none : Fault::welding_bits};
+  }
+
+ private:
+  static std::uint8_t bits_of(const std::vector<Index>& list) {
+    Index all = 0;
+    for (const Index number : list) all |= number;
+    return static_cast<std::uint8_t>(std::bit_width(all));
+  }
+};
+
 struct OrderHead {
   Index mesh = 0;
   std::uint8_t rotation_bits = 0;  ///< of each rotation, at most kMaxRotationBits
@@ -146,9 +244,12 @@ struct OrderPayload : ExtraDefaults<OrderHead> {
   template <class Io, class M>
   static void body_fields(Io& io, const Head& h, const MeshCounts& counts, M& mesh) {
     auto& order = mesh.order;
-    io.packed(order.vertex, permutation_bits(counts.vertices), counts.vertices);
+    const auto& welding = mesh.welding;
+    const Index vertices = welding.empty() ? counts.vertices : welding.vertices;
+    const Index wedges = welding.empty() ? counts.wedges : welding.wedges;
+    io.packed(order.vertex, permutation_bits(vertices), vertices);
     io.align();
-    if (!mesh.single_wedges) io.packed(order.wedge, permutation_bits(counts.wedges), counts.wedges);
+    if (mesh.orders_wedges()) io.packed(order.wedge, permutation_bits(wedges), wedges);
     io.align();
     io.packed(order.face, permutation_bits(counts.faces), counts.faces);
     io.align();
@@ -213,7 +314,7 @@ struct DigestPayload : ExtraDefaults<DigestHead> {
 };
 
 /// All descriptions.
-using Extras = std::tuple<FacesPayload, OrderPayload, DigestPayload>;
+using Extras = std::tuple<FacesPayload, WeldingPayload, OrderPayload, DigestPayload>;
 
 /// Calls `visit` with the description of the type; false when there is none.
 template <class Visit>

@@ -29,6 +29,28 @@ bool all_below(std::span<const Index> list, std::uint64_t end, Visit&& visit) {
   return holds;
 }
 
+/// How much a welding says that there is of it.
+struct WeldingSizes {
+  std::uint64_t vertices, wedges, welded, corners, numbered, moved;
+};
+
+/// Whether a mesh can have so much welded; each decoded wedge stands for itself or has a corner.
+inline bool is_possible(const WeldingSizes& sizes, Index wedges, Index triangles,
+                        const FaceTable& faces) {
+  const std::uint64_t corners = std::uint64_t{3} * triangles + faces.corners.size();
+  return sizes.wedges > 0 && sizes.wedges <= std::min<std::uint64_t>(wedges + corners, kMaxCount) &&
+         sizes.vertices <= sizes.wedges && sizes.welded <= wedges && sizes.corners <= corners &&
+         sizes.numbered <= sizes.wedges && sizes.moved <= sizes.vertices;
+}
+
+/// The same of a welding in memory; also when there is none.
+inline bool has_possible_welding(const ProgressiveMesh& mesh) {
+  const Welding& w = mesh.welding;
+  const WeldingSizes sizes{w.vertices,      w.wedges,        w.skip.size(),
+                           w.corner.size(), w.vertex.size(), w.moved.size()};
+  return w.empty() || is_possible(sizes, mesh.wedges, mesh.triangles, mesh.faces);
+}
+
 /// Elements that are out of place in bounds of runs over `size` items: from 0, never falling, to
 /// `size`. No bounds at all are the bounds of no items.
 template <class Visit>

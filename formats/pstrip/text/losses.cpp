@@ -55,6 +55,7 @@ void note_meshes(const ProgressiveStrips& strips, bool textured, Losses& losses)
     losses.add(std::ranges::any_of(mesh.groups, [](const Group& g) { return g.material != kNone; }),
                "which group has which material");
     note_attributes(mesh, textured, losses);
+    losses.add(!mesh.welding.empty(), "which vertices were welded");
     losses.add(mesh.order != OriginalOrder{}, "original order");
     losses.add(!mesh.digest.empty(), "digest");
   }

@@ -252,10 +252,25 @@ void faces_fields(Io& io, M& mesh) {
 }
 
 template <class Io, class M>
+void welding_fields(Io& io, M& mesh) {
+  auto& welding = mesh.welding;
+  io.index("vertices", welding.vertices);
+  io.index("wedges", welding.wedges);
+  io.content();
+  io.numbers("skip", "/skip", welding.skip);
+  io.numbers("more", "/more", welding.more);
+  io.numbers("corner", "/corner", welding.corner);
+  io.numbers("vertex", "/vertex", welding.vertex);
+  io.numbers("moved", "/moved", welding.moved);
+  if constexpr (Io::kReads) welding.moved_position = mesh.position.format();
+  io.elements("positions", welding.moved_position, welding.moved.size());
+}
+
+template <class Io, class M>
 void order_fields(Io& io, M& mesh) {
   io.content();
   io.numbers("vertex", "/vertex", mesh.order.vertex);
-  if (!mesh.single_wedges) io.numbers("wedge", "/wedge", mesh.order.wedge);
+  if (mesh.orders_wedges()) io.numbers("wedge", "/wedge", mesh.order.wedge);
   io.numbers("face", "/face", mesh.order.face);
   io.numbers("rotation", "/rotation", mesh.order.rotation);
 }
@@ -309,6 +324,9 @@ void tail_fields(Io& io, S& strips) {
            ItemPart{"faces", "/faces", Fault::faces_mesh,
                     [](const ProgressiveMesh& m) { return !m.faces.empty(); },
                     [](auto& child, auto& mesh) { faces_fields(child, mesh); }},
+           ItemPart{"welding", "/welding", Fault::welding_mesh,
+                    [](const ProgressiveMesh& m) { return !m.welding.empty(); },
+                    [](auto& child, auto& mesh) { welding_fields(child, mesh); }},
            ItemPart{"order", "/order", Fault::order_mesh,
                     [](const ProgressiveMesh& m) { return m.order != OriginalOrder{}; },
                     [](auto& child, auto& mesh) { order_fields(child, mesh); }},
@@ -325,17 +343,19 @@ void tail_fields(Io& io, S& strips) {
               [](auto& child, auto& chunk) { chunk_fields(child, chunk); });
 }
 
-/// What version 2.0 does not have.
-inline bool needs_newer_version(const ProgressiveStrips& strips) {
-  return strips.profile != Profile::plain ||
-         std::ranges::any_of(strips.meshes, [](const ProgressiveMesh& mesh) {
-           return mesh.encoding == MapEncoding::triangles;
-         });
+/// Of the first version 2 that has all of it.
+inline Index needed_version_minor(const ProgressiveStrips& strips) {
+  Index needed = strips.profile == Profile::plain ? 0 : 1;
+  for (const ProgressiveMesh& mesh : strips.meshes) {
+    if (mesh.encoding == MapEncoding::triangles) needed = std::max(needed, Index{1});
+    if (!mesh.welding.empty()) needed = std::max(needed, Index{2});
+  }
+  return needed;
 }
 
 template <class Io, class S>
 void document_fields(Io& io, S& strips) {
-  io.version("version", needs_newer_version(strips) ? kXmlVersionMinor : 0);
+  io.version("version", needed_version_minor(strips));
   io.profile("profile", strips.profile);
   io.flag_unless("complete", strips.complete, true);
   io.content();

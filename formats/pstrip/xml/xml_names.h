@@ -12,7 +12,7 @@ namespace pstrips::inline formats {
 
 /// What the variant's own versions count. [spec/xml.md X-004]
 inline constexpr Index kXmlVersionMajor = 2;
-inline constexpr Index kXmlVersionMinor = 1;
+inline constexpr Index kXmlVersionMinor = 2;
 
 /// In the order of the enumeration that each belongs to.
 inline constexpr std::array<std::string_view, 3> kEncodingNames = {"naive", "offset", "triangles"};

@@ -461,7 +461,7 @@ Elements page_elements() {
   return elements;
 }
 
-constexpr std::size_t kElements = 32;
+constexpr std::size_t kElements = 39;
 
 TEST(XmlSchema, NamesWhatTheLayoutNames) {
   const Elements layout = layout_elements();
