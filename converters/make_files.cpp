@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "codecs/triangulate/triangulate.h"
 #include "converters/file_io.h"
 #include "converters/merge.h"
 #include "formats/gltf/gltf.h"
@@ -59,11 +60,19 @@ void note_ply_losses(const Scene& scene, std::vector<std::string>& notes) {
 
 Result<FileSet> make_any_gltf(const Model& model, const OutputName& name, bool binary,
                               const SaveOptions& options) {
-  auto written = write_gltf(model, {.binary = binary,
-                                    .topology = topology_of(options),
-                                    .swaps = options.strip_swaps,
-                                    .embed = name.path == "-",
-                                    .buffer_name = name.companion});
+  // Concave polygons are more than the fans that a format can make of them.
+  const auto has_polygons = [](const Mesh& mesh) { return !mesh.face_first.empty(); };
+  const bool cuts = std::ranges::any_of(model.meshes, has_polygons);
+  Model cut;
+  if (cuts) {
+    cut.scene = model.scene;
+    for (const Mesh& mesh : model.meshes) cut.meshes.push_back(with_triangles(mesh));
+  }
+  auto written = write_gltf(cuts ? cut : model, {.binary = binary,
+                                                 .topology = topology_of(options),
+                                                 .swaps = options.strip_swaps,
+                                                 .embed = name.path == "-",
+                                                 .buffer_name = name.companion});
   if (!written) return tl::unexpected(written.error());
   FileSet out = one_file(name, std::move(written->main), std::move(written->dropped));
   out.converted = std::move(written->converted);

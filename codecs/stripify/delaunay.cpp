@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "codecs/stripify/predicates.h"
+#include "codecs/triangulate/predicates.h"
 #include "codecs/stripify/random.h"
 
 namespace pstrips::inline codecs {

@@ -1,14 +1,17 @@
 #include "codecs/triangulate/triangulate.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "codecs/triangulate/clip_ears.h"
+#include "codecs/triangulate/plane.h"
+#include "core/gather.h"
 #include "core/point.h"
 
 namespace pstrips::inline codecs {
 namespace {
-
-constexpr std::size_t kMaxEarClipping = 256;  // ear clipping is cubic at worst
 
 class PolygonCutter {
  public:
@@ -21,13 +24,12 @@ class PolygonCutter {
     if (loop.size() < 3) return;
     if (loop.size() == 3) return add(loop[0], loop[1], loop[2]);
     loop_.assign(loop.begin(), loop.end());
-    normal_ = newell();
-    if (loop_.size() == 4)
-      cut_quad();
-    else if (loop_.size() > kMaxEarClipping || is_convex())
-      zigzag();
-    else
-      clip_ears();
+    if (loop_.size() == 4) return cut_quad();
+    points_.clear();
+    for (const Index wedge : loop) points_.push_back(at(wedge));
+    const std::vector<Point2> flat = on_best_plane(points_);
+    if (flat.empty() || is_convex(flat)) return zigzag();
+    for (const auto& [a, b, c] : clip_ears(flat)) add(loop_[a], loop_[b], loop_[c]);
   }
 
  private:
@@ -55,11 +57,19 @@ class PolygonCutter {
   double area(Index a, Index b, Index c) const {
     return dot(normal_, cross(at(b) - at(a), at(c) - at(a)));
   }
-  bool is_convex() const {
-    const std::size_t n = loop_.size();
-    for (std::size_t i = 0; i < n; ++i)
-      if (!(area(loop_[i], loop_[(i + 1) % n], loop_[(i + 2) % n]) > 0)) return false;
-    return true;
+  // Strictly, and once around.
+  static bool is_convex(std::span<const Point2> loop) {
+    const std::size_t n = loop.size();
+    std::size_t turns_back = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Point2 &a = loop[i], &b = loop[(i + 1) % n], &c = loop[(i + 2) % n];
+      if (orient(a, b, c) <= 0) return false;
+      const auto is_left = [](const Point2& p, const Point2& q) {
+        return p.x < q.x || (p.x == q.x && p.y < q.y);
+      };
+      if (is_left(b, a) && is_left(b, c)) ++turns_back;
+    }
+    return turns_back == 1;
   }
   void zigzag() {
     std::size_t low = 0, high = loop_.size() - 1;
@@ -74,6 +84,7 @@ class PolygonCutter {
     }
   }
   void cut_quad() {
+    normal_ = newell();
     const auto [a, b, c, d] = std::array{loop_[0], loop_[1], loop_[2], loop_[3]};
     const double across_ac = std::min(area(a, b, c), area(a, c, d));
     const double across_bd = std::min(area(b, c, d), area(b, d, a));
@@ -88,33 +99,12 @@ class PolygonCutter {
       add(b, d, a);
     }
   }
-  bool is_ear(std::size_t i) const {
-    const std::size_t n = loop_.size();
-    const Index a = loop_[(i + n - 1) % n], b = loop_[i], c = loop_[(i + 1) % n];
-    if (!(area(a, b, c) > 0)) return false;
-    for (const Index w : loop_) {
-      if (w == a || w == b || w == c) continue;
-      if (area(a, b, w) >= 0 && area(b, c, w) >= 0 && area(c, a, w) >= 0) return false;
-    }
-    return true;
-  }
-  void clip_ears() {
-    while (loop_.size() > 3) {
-      const std::size_t n = loop_.size();
-      std::size_t ear = 0;
-      while (ear < n && !is_ear(ear)) ++ear;
-      if (ear == n) ear = 0;  // self-intersecting or flat: any corner will do
-      add(loop_[(ear + n - 1) % n], loop_[ear], loop_[(ear + 1) % n]);
-      loop_.erase(loop_.begin() + static_cast<std::ptrdiff_t>(ear));
-    }
-    add(loop_[0], loop_[1], loop_[2]);
-  }
-
   const Mesh& mesh_;
   std::vector<double> positions_;
   Triangulation& out_;
   Index face_ = 0;
   std::vector<Index> loop_;
+  std::vector<Point> points_;  // of the loop
   Point normal_{};
 };
 
@@ -141,6 +131,31 @@ Triangulation triangulate(const Mesh& mesh) {
   PolygonCutter cutter(mesh, out);
   for (Index f = 0; f < mesh.face_count(); ++f)
     if (mesh.groups[mesh.group_of(f)].kind == FaceKind::polygons) cutter.cut(f);
+  return out;
+}
+
+Mesh with_triangles(const Mesh& mesh) {
+  if (mesh.face_first.empty()) return mesh;
+  const Triangulation triangles = triangulate(mesh);
+  Mesh out = mesh;
+  out.corners.clear();
+  out.face_first.assign(1, 0);
+  out.face_group.clear();
+  std::vector<Index> from;
+  const auto add = [&](std::span<const Index> face, Index f) {
+    out.corners.insert(out.corners.end(), face.begin(), face.end());
+    out.face_first.push_back(static_cast<Index>(out.corners.size()));
+    out.face_group.push_back(mesh.group_of(f));
+    from.push_back(f);
+  };
+  std::size_t t = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (t == triangles.face.size() || triangles.face[t] != f) add(mesh.face(f), f);
+    for (; t < triangles.face.size() && triangles.face[t] == f; ++t)
+      add(std::span(triangles.corners).subspan(3 * t, 3), f);
+  }
+  for (Attribute& a : out.face_attributes) a = gather(a, from);
+  canonicalize(out);
   return out;
 }
 

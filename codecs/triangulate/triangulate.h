@@ -14,10 +14,16 @@ struct Triangulation {
 
 /// Cuts every polygon of three or more corners into triangles between its own corners.
 ///
-/// Convex polygons are cut in a zigzag, which is one strip without swaps; others by ear clipping
-/// in the plane of Newell's normal (quads: the diagonal that folds least, then the shorter one).
-/// Beyond 256 corners always zigzag, so that the cost stays linear. Lines, points and triangles
-/// with two corners at one vertex give nothing. Same mesh, same triangles.
+/// Convex polygons are cut in a zigzag, which is one strip without swaps; others by clip_ears() on
+/// the plane of Newell's normal (quads: the diagonal that folds least, then the shorter one), so
+/// that they are covered once. Of a polygon that is not finite comes a zigzag. Lines, points and
+/// triangles with two corners at one vertex give nothing. Same mesh, same triangles.
+///
+/// cost  O(n log n) for a polygon of n corners
 Triangulation triangulate(const Mesh& mesh);
+
+/// The mesh with these triangles in place of their polygons, each with its polygon's attributes.
+/// Other faces stay.
+Mesh with_triangles(const Mesh& mesh);
 
 }  // namespace pstrips::inline codecs

@@ -1,4 +1,4 @@
-#include "codecs/stripify/predicates.h"
+#include "codecs/triangulate/predicates.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

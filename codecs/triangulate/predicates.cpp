@@ -1,4 +1,4 @@
-#include "codecs/stripify/predicates.h"
+#include "codecs/triangulate/predicates.h"
 
 #include <algorithm>
 #include <array>
