@@ -2,6 +2,7 @@
 
 import collections
 import dataclasses
+import itertools
 
 import model
 from cells import BOUND
@@ -14,6 +15,11 @@ AXES = range(3)
 def next_of(elements):
     """The number of the first that has not come yet, or past the last."""
     return elements.index(None) if None in elements else len(elements)
+
+
+def distance(a, b):
+    """The sum of the differences, without their signs."""
+    return sum(abs(a[k] - b[k]) for k in AXES)
 
 
 def bounded(cell):
@@ -35,6 +41,9 @@ class Gate:
     end: Corner
     third: Corner
 
+    def edge(self):
+        return self.start.vertex, self.end.vertex
+
 
 class BaseRun:
     """Decodes the run; the results are position, vertex_of, wedges, map and triangle_group."""
@@ -43,10 +52,12 @@ class BaseRun:
         self.mesh = mesh
         self.run = run
         self.components = components
-        self.place, self.third = SymbolModel(), SymbolModel()
+        self.place, self.third = SymbolModel(), Models(SymbolModel)
         self.next, self.usual = BitModel(), BitModel()
         self.next_wedge, self.group = BitModel(), BitModel()
-        self.near, self.far = Models(NumberModel), Models(NumberModel)
+        self.near, self.far = NumberModel(), NumberModel()
+        self.misses = [0, 0]
+        self.triangles_at = collections.Counter()  # of each vertex so far
         self.component = Models(NumberModel)
         self.queue = collections.deque()
         self.position = [None] * mesh.base_vertices  # None: has not come yet
@@ -76,17 +87,27 @@ class BaseRun:
         a, b, c = corners
         if place == 0:
             self.queue.popleft()
-        self.queue.append(Gate(b, c, a))
-        self.queue.append(Gate(c, a, b))
+        self.add(Gate(b, c, a))
+        self.add(Gate(c, a, b))
         if place == 2:
-            self.queue.append(Gate(a, b, c))
+            self.add(Gate(a, b, c))
+        self.triangles_at.update(corner.vertex for corner in corners)
+
+    def add(self, gate):
+        """*Gates*."""
+        edges = [other.edge() for other in self.queue]
+        if gate.edge()[::-1] in edges:
+            del self.queue[edges.index(gate.edge()[::-1])]
+        elif gate.edge() not in edges:
+            self.queue.append(gate)
 
     def read_at_gate(self, gate):
         u, v = gate.start.vertex, gate.end.vertex
         first = self.read_corner(v, gate.end.wedge)
         second = self.read_corner(u, gate.start.wedge)
-        symbol = self.third.read(self.run)
-        likely = self.likely(u, v)
+        context = self.triangles_at[u] > 4, self.triangles_at[v] > 4
+        symbol = self.third[context].read(self.run)
+        likely = self.likely(gate)
         if symbol == 0:
             vertex = next_of(self.position)
         elif symbol <= len(likely):
@@ -108,31 +129,47 @@ class BaseRun:
             corners.append(self.read_corner(vertex, self.last_shown.get(vertex)))
         return corners
 
-    def likely(self, u, v):
+    def likely(self, gate):
         """The vertices that the third one is likely to be."""
-        n = len(self.queue)
+        u, v = gate.edge()
+        edges = [other.edge() for other in self.queue]
+        starts = sorted(start for start, end in edges if end == u)
+        ends = sorted(end for start, end in edges if start == v)
+        beside = [vertex for pair in itertools.zip_longest(starts, ends) for vertex in pair]
+        others = [vertex for edge in edges[:32] for vertex in edge]
+        expected = self.expected(gate)[self.better_guess()]
+        others.sort(key=lambda vertex: distance(self.position[vertex], expected))
         out = []
-        for i in range(1, min(8, n)):
-            for gate in (self.queue[i], self.queue[n - i]):
-                ends = (gate.start.vertex, gate.end.vertex)
-                for first, second in (ends, ends[::-1]):
-                    if first in (u, v) and second not in (u, v) and second not in out:
-                        out.append(second)
+        for vertex in beside + others:
+            if vertex not in (u, v, None) and vertex not in out:
+                out.append(vertex)
         return out[:14]
+
+    def expected(self, gate):
+        """*Where it is expected*: both guesses."""
+        start, end, third = (self.position[corner.vertex]
+                             for corner in (gate.start, gate.end, gate.third))
+        sums = [start[k] + end[k] for k in AXES]
+        return ([sums[k] - third[k] for k in AXES],
+                [(3 * sums[k] - 2 * third[k]) // 4 for k in AXES])
+
+    def better_guess(self):
+        return 0 if self.misses[0] < self.misses[1] else 1
 
     def read_third_corner(self, vertex, gate, first, second):
         require(vertex < self.mesh.base_vertices, "K-005")
         if self.position[vertex] is None:
-            start, end, third = (self.position[corner.vertex]
-                                 for corner in (gate.start, gate.end, gate.third))
-            self.read_position(vertex, self.near, [start[k] + end[k] - third[k] for k in AXES])
+            guesses = self.expected(gate)
+            self.read_position(vertex, self.near, guesses[self.better_guess()])
+            self.misses = [m + distance(self.position[vertex], guess) - m // 8
+                           for m, guess in zip(self.misses, guesses)]
         against = [a + b - c for a, b, c in zip(*(self.wedges[corner.wedge]
                                                   for corner in (first, second, gate.third)))]
         return self.read_corner(vertex, self.last_shown.get(vertex), against)
 
-    def read_position(self, vertex, models, against):
+    def read_position(self, vertex, model, against):
         """A new vertex."""
-        position = tuple(bounded(against[k] + models[k].read(self.run)) for k in AXES)
+        position = tuple(bounded(against[k] + model.read(self.run)) for k in AXES)
         self.position[vertex] = position
         self.last_position = position
 

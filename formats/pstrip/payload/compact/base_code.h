@@ -4,11 +4,11 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <deque>
+#include <cstdlib>
 #include <vector>
 
 #include "core/fault_list.h"
-#include "core/star_mesh.h"
+#include "formats/pstrip/payload/compact/base_gates.h"
 #include "formats/pstrip/payload/compact/split_models.h"
 
 // For formats/pstrip/payload/compact: the base of a mesh, once for writing and for reading. Its
@@ -37,13 +37,14 @@ struct BaseCounts {
 };
 
 struct BaseModels {
-  SymbolModel place;     ///< where the next triangle is
-  SymbolModel third;     ///< of a triangle at a gate
-  BitModel next_vertex;  ///< of a triangle at no gate: the first that has not come yet
-  BitModel usual_wedge;  ///< the one across the gate, or the last one at the vertex
-  BitModel next_wedge;   ///< the first that has not come yet
-  BitModel same_group;   ///< as the triangle before
-  std::array<NumberModel, 3> near, far;  ///< positions, at a gate and at none
+  SymbolModel place;  ///< where the next triangle is
+  /// Of a triangle at a gate: by whether either end of the gate has many triangles.
+  std::array<std::array<SymbolModel, 2>, 2> third;
+  BitModel next_vertex;   ///< of a triangle at no gate: the first that has not come yet
+  BitModel usual_wedge;   ///< the one across the gate, or the last one at the vertex
+  BitModel next_wedge;    ///< the first that has not come yet
+  BitModel same_group;    ///< as the triangle before
+  NumberModel near, far;  ///< positions, at a gate and at none
   std::vector<NumberModel> column;
 };
 
@@ -58,6 +59,7 @@ class BaseCode {
     is_known_.resize(counts.vertices);
     is_known_wedge_.resize(counts.wedges);
     last_wedge_of_.resize(counts.vertices, kNone);
+    triangles_at_.resize(counts.vertices);
     if constexpr (Coder::kReads) {
       mesh.columns = counts.columns;
       mesh.positions.resize(counts.vertices);
@@ -95,95 +97,109 @@ class BaseCode {
   enum Place : unsigned { kAtGate, kGateIsOpen, kAtNone };
   static constexpr unsigned kNext = 0, kNamed = SymbolModel::kSymbols - 1;
 
-  struct Gate {
-    Index from, to;  // vertices, as the triangle behind has them
-    Index triangle;  // that one
-    unsigned from_corner;
-  };
-
   static unsigned bits_for(Index count) { return static_cast<unsigned>(std::bit_width(count)); }
   Index vertex(Index t, unsigned k) const { return mesh_.wedge_vertex[mesh_.corners[3 * t + k]]; }
 
   Result<void> code_triangle(Index t) {
     coder_.part(Part::base_map);
-    const Gate* const gate = code_place(t);
+    const BaseGate* const gate = code_place(t);
     if (gate == nullptr && !at_none_) return broken(Fault::compact_base);
     std::array<Index, 3> v{};
-    Gate at{};
+    BaseGate at{};
     if (gate != nullptr) at = *gate;
     for (unsigned k = 0; k < 3; ++k) {
       const Index wanted = Coder::kReads ? 0 : vertex(t, k);
       if (gate == nullptr)
         v[k] = code_vertex(wanted);
       else
-        v[k] = k == 0 ? at.to : k == 1 ? at.from : code_third(wanted);
+        v[k] = k == 0 ? at.to : k == 1 ? at.from : code_third(at, wanted);
       if (v[k] >= counts_.vertices) return broken(Fault::compact_base);
       for (unsigned i = 0; i < k; ++i)
         if (v[i] == v[k]) return broken(Fault::compact_base);
       if (auto ok = code_corner(t, k, v[k], gate != nullptr ? &at : nullptr); !ok) return ok;
     }
     code_group(t);
-    if (gate != nullptr) gates_.pop_front();
-    for (const unsigned k : {1u, 2u}) gates_.push_back({v[k], v[(k + 1) % 3], t, k});
-    if (gate == nullptr) gates_.push_back({v[0], v[1], t, 0});
+    if (gate != nullptr) gates_.pop();
+    for (const unsigned k : {1u, 2u}) gates_.add({v[k], v[(k + 1) % 3], t, k});
+    if (gate == nullptr) gates_.add({v[0], v[1], t, 0});
+    for (const Index corner : v) ++triangles_at_[corner];
     return {};
   }
 
   /// The gate of the next triangle, or null: `at_none_` says whether that is right.
-  const Gate* code_place(Index t) {
+  const BaseGate* code_place(Index t) {
     while (true) {
       const unsigned place = coder_.symbol(models_.place, Coder::kReads ? 0 : place_of(t));
       at_none_ = place == kAtNone;
       if (gates_.empty() || place > kGateIsOpen) return nullptr;
       if (place == kAtGate) return &gates_.front();
-      gates_.pop_front();
+      gates_.pop();
     }
   }
 
   unsigned place_of(Index t) const {
     // As far as this a writer looks for the gate of its next triangle.
-    constexpr std::size_t kReach = 256;
-    const auto is_at = [&](const Gate& g) {
-      return g.to == vertex(t, 0) && g.from == vertex(t, 1);
-    };
-    if (!gates_.empty() && is_at(gates_.front())) return kAtGate;
-    const auto end = gates_.begin() + static_cast<std::ptrdiff_t>(std::min(gates_.size(), kReach));
-    return std::any_of(gates_.begin(), end, is_at) ? kGateIsOpen : kAtNone;
+    constexpr Index kReach = 256;
+    const Index behind = gates_.places_behind(vertex(t, 1), vertex(t, 0));
+    return behind == 0 ? kAtGate : behind < kReach ? kGateIsOpen : kAtNone;
   }
 
-  /// The other ends of gates near in the queue that share a vertex with the first.
-  std::vector<Index> likely_thirds() const {
-    constexpr std::size_t kWindow = 8;
-    const Gate& gate = gates_.front();
-    std::vector<Index> out;
-    const auto add = [&](Index shared, Index other) {
-      const bool shares = shared == gate.from || shared == gate.to;
-      if (shares && other != gate.from && other != gate.to &&
-          out.size() + 2 < SymbolModel::kSymbols && std::ranges::find(out, other) == out.end())
-        out.push_back(other);
-    };
-    const std::size_t n = gates_.size();
-    for (std::size_t i = 1; i < std::min(n, kWindow); ++i)
-      for (const std::size_t at : {i, n - i}) {
-        add(gates_[at].from, gates_[at].to);
-        add(gates_[at].to, gates_[at].from);
-      }
+  static std::int64_t distance(GridPoint a, GridPoint b) {
+    const GridPoint off = a - b;
+    return std::int64_t{std::abs(off.x)} + std::abs(off.y) + std::abs(off.z);
+  }
+
+  /// Where the third vertex may lie: a parallelogram, which is too long where triangles are large
+  /// and turn, and half of one.
+  std::array<GridPoint, 2> beyond_positions(const BaseGate& gate) const {
+    const GridPoint both = mesh_.positions[gate.from] + mesh_.positions[gate.to];
+    const GridPoint behind = mesh_.positions[opposite(gate)];
+    const auto half = [](std::int32_t sum, std::int32_t x) { return (3 * sum - 2 * x) >> 2; };
+    return {both - behind,
+            {half(both.x, behind.x), half(both.y, behind.y), half(both.z, behind.z)}};
+  }
+  /// The one that was nearer of late.
+  GridPoint beyond_position(const BaseGate& gate) const {
+    return beyond_positions(gate)[misses_[0] < misses_[1] ? 0 : 1];
+  }
+  void learn_from(const BaseGate& gate, GridPoint at) {
+    const std::array<GridPoint, 2> guesses = beyond_positions(gate);
+    for (unsigned i = 0; i < 2; ++i) misses_[i] += distance(at, guesses[i]) - (misses_[i] >> 3);
+  }
+
+  /// Vertices that the third one is likely to be, kNamed - 1 at most: those beside the gate, and
+  /// from there on those of other gates, the nearest first.
+  std::vector<Index> likely_thirds(const BaseGate& gate, bool with_others) const {
+    std::vector<Index> out = gates_.beside(gate, kNamed - 1);
+    if (!with_others) return out;
+    const GridPoint middle = beyond_position(gate);
+    std::vector<Index> others = gates_.others(gate, out);
+    std::ranges::stable_sort(others, {},
+                             [&](Index v) { return distance(mesh_.positions[v], middle); });
+    others.resize(std::min<std::size_t>(others.size(), kNamed - 1 - out.size()));
+    out.insert(out.end(), others.begin(), others.end());
     return out;
   }
 
-  Index code_third(Index wanted) {
+  Index code_third(const BaseGate& gate, Index wanted) {
+    constexpr Index kMany = 4;  // triangles
     coder_.part(Part::base_map);
-    const std::vector<Index> likely = likely_thirds();
+    std::vector<Index> likely = likely_thirds(gate, false);
     unsigned symbol = kNamed;
     if constexpr (!Coder::kReads) {
-      const auto at = std::ranges::find(likely, wanted);
+      const auto place = [&] { return std::ranges::find(likely, wanted) - likely.begin(); };
+      if (wanted != next_vertex_ && place() == std::ssize(likely))
+        likely = likely_thirds(gate, true);
       if (wanted == next_vertex_)
         symbol = kNext;
-      else if (at != likely.end())
-        symbol = static_cast<unsigned>(1 + (at - likely.begin()));
+      else if (place() < std::ssize(likely))
+        symbol = static_cast<unsigned>(1 + place());
     }
-    symbol = coder_.symbol(models_.third, symbol);
+    symbol = coder_.symbol(models_.third[triangles_at_[gate.from] > kMany ? 1 : 0]
+                                        [triangles_at_[gate.to] > kMany ? 1 : 0],
+                           symbol);
     if (symbol == kNext) return next_vertex_;
+    if (symbol > likely.size() && symbol < kNamed) likely = likely_thirds(gate, true);
     if (symbol <= likely.size()) return likely[symbol - 1];
     return coder_.raw(wanted, bits_for(counts_.vertices));
   }
@@ -195,15 +211,13 @@ class BaseCode {
   }
 
   /// gate  of the triangle, or null
-  Result<void> code_corner(Index t, unsigned k, Index v, const Gate* gate) {
+  Result<void> code_corner(Index t, unsigned k, Index v, const BaseGate* gate) {
     const bool is_third = gate != nullptr && k == 2;
-    if (!is_known_[v]) {
-      if (is_third)
-        code_position(v, models_.near,
-                      mesh_.positions[gate->from] + mesh_.positions[gate->to] -
-                          mesh_.positions[opposite(*gate)]);
-      else
-        code_position(v, models_.far, last_position_);
+    if (!is_known_[v] && is_third) {
+      code_position(v, models_.near, beyond_position(*gate));
+      learn_from(*gate, mesh_.positions[v]);
+    } else if (!is_known_[v]) {
+      code_position(v, models_.far, last_position_);
     }
     Index usual = last_wedge_of_[v];
     if (gate != nullptr && k < 2)
@@ -216,12 +230,12 @@ class BaseCode {
     return code_wedge(mesh_.corners[3 * t + k], v, usual, predicted);
   }
 
-  Index opposite(const Gate& gate) const {
+  Index opposite(const BaseGate& gate) const {
     return vertex(gate.triangle, (gate.from_corner + 2) % 3);
   }
 
   /// The parallelogram of wedges.
-  Row beyond(Index t, const Gate& gate) const {
+  Row beyond(Index t, const BaseGate& gate) const {
     const Index far = mesh_.corners[3 * gate.triangle + (gate.from_corner + 2) % 3];
     Row out = row_of(mesh_.corners[3 * t]);
     for (unsigned c = 0; c < counts_.columns; ++c)
@@ -230,12 +244,12 @@ class BaseCode {
     return out;
   }
 
-  void code_position(Index v, std::array<NumberModel, 3>& models, GridPoint predicted) {
+  void code_position(Index v, NumberModel& model, GridPoint predicted) {
     GridPoint& at = mesh_.positions[v];
     coder_.part(Part::base_positions);
-    code_number(models[0], predicted.x, at.x);
-    code_number(models[1], predicted.y, at.y);
-    code_number(models[2], predicted.z, at.z);
+    code_number(model, predicted.x, at.x);
+    code_number(model, predicted.y, at.y);
+    code_number(model, predicted.z, at.z);
     is_known_[v] = true;
     while (next_vertex_ < counts_.vertices && is_known_[next_vertex_]) ++next_vertex_;
     last_position_ = at;
@@ -305,11 +319,13 @@ class BaseCode {
   const BaseCounts counts_;
   BaseMesh& mesh_;
   BaseModels models_;
-  std::deque<Gate> gates_;
+  BaseGates gates_;
   std::vector<bool> is_known_, is_known_wedge_;
   std::vector<Index> last_wedge_of_;  // a vertex each; kNone: it has none yet
+  std::vector<Index> triangles_at_;   // likewise, so far
   Index next_vertex_ = 0, next_wedge_ = 0, last_wedge_ = kNone;
   GridPoint last_position_;
+  std::array<std::int64_t, 2> misses_{};  // of the guesses, so that old ones fade
   bool at_none_ = false;
 };
 
