@@ -41,6 +41,7 @@ Command add_inspect(CLI::App& root);
 Command add_extract(CLI::App& root);
 Command add_compare(CLI::App& root);
 Command add_stripify(CLI::App& root);
+Command add_render(CLI::App& root);
 Command add_view(CLI::App& root);
 
 }  // namespace pstrips::cli

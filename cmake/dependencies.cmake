@@ -13,6 +13,8 @@ if(PSTRIPS_CLI)
   find_package(CLI11 2.1 REQUIRED)
   find_path(HTTPLIB_INCLUDE_DIR httplib.h REQUIRED)  # cpp-httplib 0.11
   find_library(HTTPLIB_LIBRARY cpp-httplib REQUIRED)
+  find_package(PNG 1.6 REQUIRED)
+  find_library(TURBOJPEG_LIBRARY turbojpeg REQUIRED)  # libjpeg-turbo 2.1
 endif()
 
 # Compared with, where they are installed. VTK is half a gigabyte and in no list of ours.

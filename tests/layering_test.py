@@ -25,10 +25,13 @@ THIRD_PARTY = {
     "CLI/": {"cli"},
     "fast_float/": {"formats/text"},
     "fmt/": {"cli"},
+    "httplib.h": {"cli"},
     "nlohmann/": {"cli", "formats/gltf"},
     "openssl/": {"formats/pstrip/payload"},
+    "png.h": {"cli"},
     "tiny_gltf.h": {"formats/gltf"},
     "tinyxml2.h": {"formats/pstrip/xml"},
+    "turbojpeg.h": {"cli"},
     "zlib.h": {"formats/pstrip/container", "examples"},
 }
 # Headers that cannot do without.

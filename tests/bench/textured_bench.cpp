@@ -32,7 +32,7 @@
 #include "core/file.h"
 #include "tests/support/appearance.h"
 #include "tests/support/paths.h"
-#include "tests/support/rasterizer.h"
+#include "codecs/render/rasterizer.h"
 #include "tests/support/seamed_meshes.h"
 
 namespace pstrips::bench {

@@ -9,6 +9,8 @@
 namespace pstrips::test {
 namespace {
 
+Point unit(const Point& p) { return p * (1 / length(p)); }
+
 using Colour = std::array<float, 3>;
 constexpr Colour kGrey{0.5f, 0.5f, 0.5f};
 
@@ -189,6 +191,35 @@ Appearance Comparison::result() const {
 }
 
 }  // namespace
+
+Texture checker_texture(Index size, Index checks) {
+  Texture out{size, size, {}};
+  for (Index y = 0; y < size; ++y)
+    for (Index x = 0; x < size; ++x) {
+      const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(size);
+      const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
+      const float check = (x * checks / size + y * checks / size) % 2 == 0 ? 1.f : 0.6f;
+      out.texels.push_back({u * check, v * check, (1 - u) * check});
+    }
+  return out;
+}
+
+std::array<Camera, 12> icosahedron_cameras(const Point& centre, double radius) {
+  std::array<Camera, 12> out;
+  std::size_t i = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double one : {-1.0, 1.0})
+      for (const double golden : {-std::numbers::phi, std::numbers::phi}) {
+        Point corner{};
+        corner[axis] = one;
+        corner[(axis + 1) % 3] = golden;
+        // Parallel to no corner.
+        const Point right = unit(cross({0.1, 1, 0.2}, corner));
+        const Point toward = unit(corner);
+        out[i++] = {right, cross(toward, right), toward, centre, radius};
+      }
+  return out;
+}
 
 Appearance compare_appearance(const RenderMesh& original, const RenderMesh& other,
                               std::span<const Texture> textures, std::span<const Camera> cameras,

@@ -1,12 +1,19 @@
 #pragma once
 
+#include <array>
 #include <span>
 
-#include "tests/support/rasterizer.h"
+#include "codecs/render/rasterizer.h"
 
 // How much of a mesh's looks another one keeps.
 
 namespace pstrips::test {
+
+/// Checks over gradients: tells every place from its neighbours, and shows what stretches.
+Texture checker_texture(Index size, Index checks);
+
+/// From the corners of an icosahedron.
+std::array<Camera, 12> icosahedron_cameras(const Point& centre, double radius);
 
 /// Differences between pictures of two meshes, from 0: the same. Colours over pixels that either
 /// mesh covers, on grey; the rest over those that both do, texture coordinates where they show the

@@ -1,13 +1,12 @@
-#include "tests/support/rasterizer.h"
+#include "codecs/render/rasterizer.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "codecs/triangulate/triangulate.h"
 
-namespace pstrips::test {
+namespace pstrips::inline codecs {
 namespace {
 
 constexpr float kAmbient = 0.3f;
@@ -179,18 +178,6 @@ Texture Texture::halved() const {
   return out;
 }
 
-Texture checker_texture(Index size, Index checks) {
-  Texture out{size, size, {}};
-  for (Index y = 0; y < size; ++y)
-    for (Index x = 0; x < size; ++x) {
-      const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(size);
-      const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
-      const float check = (x * checks / size + y * checks / size) % 2 == 0 ? 1.f : 0.6f;
-      out.texels.push_back({u * check, v * check, (1 - u) * check});
-    }
-  return out;
-}
-
 RenderMesh render_mesh(const Mesh& mesh, std::span<const Index> group_texture) {
   const Triangulation triangles = triangulate(mesh);
   const std::vector<double> positions = positions_as_double(mesh);
@@ -216,23 +203,6 @@ RenderMesh render_mesh(const Mesh& mesh, std::span<const Index> group_texture) {
   return out;
 }
 
-std::array<Camera, 12> icosahedron_cameras(const Point& centre, double radius) {
-  std::array<Camera, 12> out;
-  std::size_t i = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    for (const double one : {-1.0, 1.0})
-      for (const double golden : {-std::numbers::phi, std::numbers::phi}) {
-        Point corner{};
-        corner[axis] = one;
-        corner[(axis + 1) % 3] = golden;
-        // Parallel to no corner.
-        const Point right = normalized(cross({0.1, 1, 0.2}, corner));
-        const Point toward = normalized(corner);
-        out[i++] = {right, cross(toward, right), toward, centre, radius};
-      }
-  return out;
-}
-
 Picture render(const RenderMesh& mesh, std::span<const Texture> textures, const Camera& camera,
                Index size) {
   Renderer renderer(textures, camera, size);
@@ -247,4 +217,4 @@ std::array<float, 3> lit(const Pixel& pixel, const Point& normal, const Point& t
   return out;
 }
 
-}  // namespace pstrips::test
+}  // namespace pstrips::inline codecs

@@ -1,4 +1,4 @@
-#include "tests/support/rasterizer.h"
+#include "codecs/render/rasterizer.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "tests/support/appearance.h"
 #include "tests/support/meshes.h"
 
 namespace pstrips::test {

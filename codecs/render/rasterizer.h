@@ -8,11 +8,11 @@
 #include "core/mesh.h"
 #include "core/point.h"
 
-// A small renderer for comparing meshes by what one sees of them: z-buffer, textures, no lights of
-// its own. Cameras are orthographic, so that no part of a model counts more than another and
-// everything is linear over a triangle on the screen.
+// A small renderer for pictures without a graphics card, and for comparing meshes by what one sees
+// of them: z-buffer, textures, no lights of its own. Cameras are orthographic, so that no part of a
+// model counts more than another and everything is linear over a triangle on the screen.
 
-namespace pstrips::test {
+namespace pstrips::inline codecs {
 
 using Uv = std::array<double, 2>;
 
@@ -25,9 +25,6 @@ struct Texture {
   /// Half as wide and high, each texel the mean of four. Precondition: both are even.
   Texture halved() const;
 };
-
-/// Checks over gradients: tells every place from its neighbours, and shows what stretches.
-Texture checker_texture(Index size, Index checks);
 
 /// Triangles with all that a pixel can show.
 struct RenderMesh {
@@ -56,9 +53,6 @@ struct Camera {
   double radius = 1;
 };
 
-/// From the corners of an icosahedron.
-std::array<Camera, 12> icosahedron_cameras(const Point& centre, double radius);
-
 struct Pixel {
   static constexpr double kBackground = std::numeric_limits<double>::infinity();
   double depth = kBackground;  ///< away from the viewer, 0 at the camera's centre
@@ -84,4 +78,4 @@ Picture render(const RenderMesh& mesh, std::span<const Texture> textures, const 
 /// How a pixel looks with a light where the viewer is.
 std::array<float, 3> lit(const Pixel& pixel, const Point& normal, const Point& toward);
 
-}  // namespace pstrips::test
+}  // namespace pstrips::inline codecs
