@@ -44,7 +44,10 @@ double attribute_weight(std::string_view semantic, const EncodeOptions& options)
   return 0;
 }
 
-constexpr double kBaseShare = 0.05;
+constexpr double kBaseShare = 0.05, kCompactBaseShare = 0.1;
+// Batches that leave less than this of a packet to the base. So a base gets larger by a tenth at
+// most, which is left free for it.
+constexpr double kLeastShareOfBatch = 0.5, kTargetOfBase = 0.9;
 
 // Cells that lie around zero show as zero, others as their middle: off by a step on each axis.
 constexpr double kBlur = 1.7320508075688773;
@@ -192,10 +195,15 @@ class Encoder {
   // is.
   Placement placement() const { return is_compact() ? Placement::subset : options_.placement; }
   bool chooses_batches() const { return maps_triangles() && placement() == Placement::subset; }
+  // Of the compact profile, and nobody asked for another one.
+  bool has_default_base() const {
+    return is_compact() && !options_.base_share && !options_.base_triangles && !options_.base_error;
+  }
   BatchOptions batch_options(bool given) const {
     constexpr double kPlainWindow = 2;  // for sequences that do not fall into batches
     BatchOptions out{.schedule = BatchSchedule::of(options_.order)};
     if (given || !chooses_batches()) out.window = kPlainWindow;
+    if (has_default_base()) out.least_share = kLeastShareOfBatch;
     return out;
   }
   bool is_on_grid() const { return options_.position_bits > 0; }
@@ -215,7 +223,7 @@ class Encoder {
 
   // A total of triangles is shared out in proportion.
   void choose_share() {
-    share_ = options_.base_share.value_or(kBaseShare);
+    share_ = options_.base_share.value_or(is_compact() ? kCompactBaseShare : kBaseShare);
     if (!options_.base_triangles) return;
     std::uint64_t all = 0;
     for (const Mesh& mesh : model_.meshes) all += triangulate(mesh).face.size();
@@ -225,8 +233,9 @@ class Encoder {
   std::uint64_t base_triangles(std::uint64_t triangles) const {
     if (options_.base_error) return 0;
     const auto share = static_cast<std::uint64_t>(share_ * static_cast<double>(triangles));
-    const bool is_default = !options_.base_share && !options_.base_triangles;
-    return is_compact() && is_default ? std::min(share, kCompactBaseTriangles) : share;
+    if (!has_default_base()) return share;
+    return static_cast<std::uint64_t>(kTargetOfBase *
+                                      static_cast<double>(std::min(share, kCompactBaseTriangles)));
   }
 
   // The meshes side by side, the largest first so that none is left for the end; those of which not

@@ -46,7 +46,7 @@ struct EncodeOptions {
   /// More shortens the strips of coarse levels and lengthens the file; 0 looks at the full mesh
   /// alone. At most kMaxLevelCost.
   std::uint32_t level_cost = 1;
-  /// Of each mesh's triangles that the base keeps. Not given: 0.05, in the compact profile
+  /// Of each mesh's triangles that the base keeps. Not given: 0.05, in the compact profile 0.1 and
   /// kCompactBaseTriangles at most.
   std::optional<double> base_share{};
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together

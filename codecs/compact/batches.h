@@ -17,6 +17,9 @@ struct BatchOptions {
   /// A batch is chosen from the next collapses, so many times its size; `cheapest` does not count.
   /// Sequences that fall into batches want little, others 2.
   double window = 1.2;
+  /// A coarsest batch with less than this share of what it might have is left to the base: a packet
+  /// has its price.
+  double least_share = 0;
 };
 
 /// The batch of each collapse, 0 the finest. In a batch no vertex takes part in two collapses, so

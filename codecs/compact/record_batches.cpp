@@ -19,9 +19,24 @@ struct Batched {
   Index batches = 0;
 };
 
+// Takes the collapses of the coarsest batch out if they are few.
+void leave_out_rest(std::vector<Index>& batch, Index vertices, const BatchOptions& options) {
+  const auto taken = [](Index number) { return number != kNone; };
+  Index last = 0;
+  for (const Index number : batch)
+    if (taken(number)) last = std::max(last, number);
+  const auto size = static_cast<double>(std::ranges::count(batch, last));
+  const auto before =
+      static_cast<Index>(std::ranges::count_if(batch, [&](Index n) { return n < last; }));
+  const Index left = vertices - before;
+  if (size < options.least_share * options.schedule.at(left, vertices).most_of(left))
+    std::ranges::replace(batch, last, kNone);
+}
+
 Batched batch_up(const CollapseSequence& sequence, Index vertices, const BatchOptions& options) {
   Batched out;
-  const std::vector<Index> batch = batches_of(sequence.collapses, vertices, options, kMostBatches);
+  std::vector<Index> batch = batches_of(sequence.collapses, vertices, options, kMostBatches);
+  leave_out_rest(batch, vertices, options);
   for (std::size_t i = 0; i < batch.size(); ++i) {
     if (batch[i] == kNone) continue;
     out.collapses.push_back(sequence.collapses[i]);
