@@ -149,6 +149,7 @@ class Levels(ProgramTest):
         rows = list(csv.DictReader(io.StringIO(run.out.decode())))
         self.assertEqual(len(rows), len(self.packets))
         for row, packet in zip(rows, self.packets):
+            del packet["bits"]  # an object: what each part takes
             self.assertEqual(sorted(row), sorted(packet))
             for key, value in packet.items():
                 self.assertAlmostEqual(float(row[key]), value, delta=1e-6 * abs(value))
