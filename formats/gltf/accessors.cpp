@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formats/gltf/container.h"
+#include "formats/gltf/meshopt.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
@@ -42,7 +43,9 @@ Data::Data(Document& document, std::optional<ByteView> bin, const ReadFile& read
       budget_(budget),
       loaded_(document.buffers.size()) {}
 
-Result<ByteView> Data::buffer(Index i, bool compressed) {
+bool Data::has_bytes(Index i) const { return document_.buffers[i].has_uri || (i == 0 && bin_); }
+
+Result<ByteView> Data::buffer(Index i) {
   Buffer& buffer = document_.buffers[i];
   const auto located = [&](Error error) {
     if (error.path.empty()) error.path = pointer("buffers", i);
@@ -50,11 +53,8 @@ Result<ByteView> Data::buffer(Index i, bool compressed) {
   };
   ByteView bytes;
   if (!buffer.has_uri) {
-    if (i != 0 || !bin_)
-      return compressed ? fail(ErrorCode::unsupported, "meshopt compression without a fallback",
-                               kNoOffset, pointer("buffers", i))
-                        : fail(ErrorCode::corrupt, "buffer without bytes", kNoOffset,
-                               pointer("buffers", i));
+    if (!has_bytes(i))
+      return fail(ErrorCode::corrupt, "buffer without bytes", kNoOffset, pointer("buffers", i));
     bytes = *bin_;
   } else {
     if (!loaded_[i]) {
@@ -93,9 +93,40 @@ Result<ByteView> Data::range(Index i, std::uint64_t offset, std::uint64_t bytes)
     return fail(ErrorCode::corrupt, "data reaches past its view", kNoOffset,
                 pointer("bufferViews", i));
   if (bytes == 0) return ByteView{};
-  const Result<ByteView> all = buffer(view.buffer, view.compressed);
+  const bool is_decoded = view.compressed && !has_bytes(view.buffer);
+  const Result<ByteView> all = is_decoded ? decoded_view(i) : buffer(view.buffer);
   if (!all) return all;
-  return all->subspan(view.offset + offset, bytes);
+  return all->subspan(is_decoded ? offset : view.offset + offset, bytes);
+}
+
+/// As long as the view.
+Result<ByteView> Data::decoded_view(Index i) {
+  if (const auto known = decoded_views_.find(i); known != decoded_views_.end())
+    return ByteView(known->second);
+  const View& view = document_.views[i];
+  const View::Compressed& in = *view.compressed;
+  const std::string path = pointer("bufferViews", i);
+  if (in.buffer >= document_.buffers.size())
+    return fail(ErrorCode::corrupt, "meshopt compression refers to nothing", kNoOffset, path);
+  if (decoded_bytes(in) < view.bytes)
+    return fail(ErrorCode::corrupt, "meshopt compression of less than its view", kNoOffset, path);
+  const std::uint64_t buffer_bytes = document_.buffers[in.buffer].bytes;
+  if (in.offset > buffer_bytes || in.bytes > buffer_bytes - in.offset)
+    return fail(ErrorCode::corrupt, "meshopt compression reaches past its buffer", kNoOffset, path);
+  const Result<ByteView> all = buffer(in.buffer);
+  if (!all) return all;
+  if (!budget_.take(decoded_bytes(in)))
+    return fail(ErrorCode::over_limit, budget_.refusal(decoded_bytes(in)), kNoOffset, path);
+  Result<Bytes> decoded = decode_meshopt(in, all->subspan(in.offset, in.bytes));
+  if (!decoded) return fail(decoded.error().code, decoded.error().message, kNoOffset, path);
+  return ByteView(decoded_views_.emplace(i, std::move(*decoded)).first->second);
+}
+
+Result<void> Data::give(Index accessor, Bytes elements) {
+  if (!budget_.take(elements.size()))
+    return fail(ErrorCode::over_limit, budget_.refusal(elements.size()));
+  given_.insert_or_assign(accessor, std::move(elements));
+  return {};
 }
 
 Result<void> Data::copy_elements(const Accessor& accessor, Bytes& out) {
@@ -142,6 +173,7 @@ Result<void> Data::put_sparse_values(const Accessor& accessor, Bytes& out) {
 }
 
 Result<Bytes> Data::elements(Index i) {
+  if (const auto given = given_.find(i); given != given_.end()) return given->second;
   const Accessor& accessor = document_.accessors[i];
   Bytes out;
   const auto located = [&](Error error) {

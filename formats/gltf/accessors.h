@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "formats/gltf/document.h"
@@ -42,11 +43,15 @@ class Data {
 
   /// A part of a view. errors: corrupt, truncated, unsupported, over_limit, those of read_file
   Result<ByteView> range(Index view, std::uint64_t offset, std::uint64_t bytes);
+  /// Takes over the elements of an accessor that has no bytes of its own. errors: over_limit
+  Result<void> give(Index accessor, Bytes elements);
   /// All elements, packed: strides gone, sparse values in place, matrix columns padded.
   Result<Bytes> elements(Index accessor);
 
  private:
-  Result<ByteView> buffer(Index i, bool compressed);
+  Result<ByteView> buffer(Index i);
+  bool has_bytes(Index buffer) const;
+  Result<ByteView> decoded_view(Index i);
   Result<void> copy_elements(const Accessor& accessor, Bytes& out);
   Result<void> put_sparse_values(const Accessor& accessor, Bytes& out);
 
@@ -55,6 +60,8 @@ class Data {
   const ReadFile& read_file_;
   Budget& budget_;
   std::vector<std::optional<Bytes>> loaded_;
+  std::map<Index, Bytes> decoded_views_;
+  std::map<Index, Bytes> given_;  ///< by accessor
 };
 
 /// Elements of an attribute: as Data::elements, without the padding of matrix columns.

@@ -1,9 +1,11 @@
 #include "formats/gltf/container.h"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "core/base64.h"
+#include "core/text.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
@@ -15,6 +17,17 @@ int hex_digit(char c) {
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
   if (c >= 'A' && c <= 'F') return c - 'A' + 10;
   return -1;
+}
+
+std::string percent_decoded(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+    out += low < 0 ? text[i] : static_cast<char>(high * 16 + low);
+    if (low >= 0) i += 2;
+  }
+  return out;
 }
 
 /// "C:", "http:" … at the start.
@@ -52,11 +65,14 @@ Result<Container> split(ByteView file) {
   }
   const std::uint32_t version = in.u32(), length = in.u32();
   if (in.error()) return fail(ErrorCode::truncated, "ends inside the file header", file.size());
+  if (version == 1) return fail(ErrorCode::unsupported, "glTF 1.0", 4);
   if (version != 2) return fail(ErrorCode::unsupported, "binary glTF of another version than 2", 4);
   if (length < 12) return fail(ErrorCode::corrupt, "file length is below the header's", 8);
   if (length > file.size())
     return fail(ErrorCode::truncated, "ends before its announced length", file.size());
-  if (length < file.size()) return fail(ErrorCode::corrupt, "has bytes after its end", length);
+  out.bytes_after = file.size() - length;
+  in = ByteReader(file.first(length));
+  in.take(12);
   for (bool first = true; first || in.remaining() > 0; first = false) {
     const std::uint64_t start = in.offset();
     const std::uint32_t size = in.u32(), type = in.u32();
@@ -103,34 +119,40 @@ Result<Bytes> join(std::string_view json, ByteView bin, ByteView other_chunks) {
   return std::move(out).take();
 }
 
+bool is_data_uri(std::string_view uri) { return lower_case(uri.substr(0, 5)) == "data:"; }
+
 Result<DataUri> decode_data_uri(std::string_view uri) {
   constexpr std::string_view kEncoding = ";base64";
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos) return fail(ErrorCode::corrupt, "data URI without a comma");
   std::string_view head = uri.substr(5, comma - 5);
-  if (!head.ends_with(kEncoding))
-    return fail(ErrorCode::unsupported, "data URI in another encoding than base64");
-  head.remove_suffix(kEncoding.size());
-  std::optional<Bytes> data = parse_base64(uri.substr(comma + 1), Base64::lenient);
+  const bool is_base64 = lower_case(head).ends_with(kEncoding);
+  if (is_base64) head.remove_suffix(kEncoding.size());
+  std::string text;
+  std::string_view content = uri.substr(comma + 1);
+  if (!is_base64 || content.find_first_of("% \t\r\n") != std::string_view::npos) {
+    text = percent_decoded(content);
+    if (is_base64) std::erase_if(text, [](char c) { return std::isspace(c) != 0; });
+    content = text;
+  }
+  DataUri out{std::string(head.substr(0, head.find(';'))), {}};
+  if (!is_base64) {
+    const ByteView bytes = as_bytes(content);
+    out.data.assign(bytes.begin(), bytes.end());
+    return out;
+  }
+  std::optional<Bytes> data = parse_base64(content, Base64::lenient);
   if (!data) return fail(ErrorCode::corrupt, "data URI that is not base64");
-  return DataUri{std::string(head.substr(0, head.find(';'))), std::move(*data)};
+  out.data = std::move(*data);
+  return out;
 }
 
 Result<std::string> decode_relative_uri(std::string_view uri) {
   if (has_scheme(uri)) return fail(ErrorCode::unsupported, "absolute URI");
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    char c = uri[i];
-    if (c == '%') {
-      const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1;
-      const int low = i + 2 < uri.size() ? hex_digit(uri[i + 2]) : -1;
-      if (high < 0 || low < 0) return fail(ErrorCode::corrupt, "malformed percent sign in a URI");
-      c = static_cast<char>(high * 16 + low);
-      i += 2;
-    }
-    if (c == '\0') return fail(ErrorCode::corrupt, "zero byte in a URI");
-    path += c == '\\' ? '/' : c;  // a backslash climbs out of folders as well on some systems
-  }
+  std::string path = percent_decoded(uri);
+  if (path.find('\0') != std::string::npos) return fail(ErrorCode::corrupt, "zero byte in a URI");
+  // A backslash climbs out of folders as well on some systems.
+  std::ranges::replace(path, '\\', '/');
   if (path.empty()) return fail(ErrorCode::corrupt, "empty URI");
   if (path.front() == '/' || has_scheme(path) || climbs_out(path))
     return fail(ErrorCode::unsupported, "URI leaves the model's folder");

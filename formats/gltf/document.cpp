@@ -1,10 +1,12 @@
 #include "formats/gltf/document.h"
 
 #include <algorithm>
+#include <array>
 
 #include "formats/gltf/extensions/extension.h"
 #include "formats/gltf/json_cursor.h"
 #include "formats/gltf/nodes.h"
+#include "formats/gltf/unknown_extensions.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
@@ -25,12 +27,24 @@ Result<json> parse_json(std::string_view text, std::uint64_t offset, std::uint32
 
 // ---- asset and extensions ----
 
+/// glTF 1.0 lists by name what glTF 2.0 lists by number, and need not say its version.
+bool is_first_version(const Cursor& root) {
+  const bool says_another =
+      root.has("asset") && root["asset"].value().is_object() && root["asset"].has("version");
+  return !says_another &&
+         std::ranges::any_of(
+             std::array{"meshes", "accessors", "bufferViews"},
+             [&](const char* key) { return root.has(key) && root[key].value().is_object(); });
+}
+
 void check_asset(const Cursor& root) {
+  if (is_first_version(root)) return root.fail(ErrorCode::unsupported, "glTF 1.0");
   if (!root.has_object("asset"))
     return root.fail(ErrorCode::corrupt, "has no asset, so it is not glTF 2.0");
   const Cursor asset = root["asset"];
   const std::string version = asset.text("version"), least = asset.text("minVersion");
   if (version.empty()) return asset.fail(ErrorCode::corrupt, "names no version");
+  if (version.starts_with("1.")) return asset.fail(ErrorCode::unsupported, "glTF 1.0");
   if (!version.starts_with("2.")) asset.fail(ErrorCode::unsupported, "is not glTF 2");
   if (!least.empty() && least != "2.0")
     asset.fail(ErrorCode::unsupported, "needs a later glTF than 2.0");
@@ -49,6 +63,18 @@ void check_required_extensions(const Cursor& root) {
   }
 }
 
+template <class Element>
+void read_extension(const Cursor& object, const Extension& extension, Element& element) {
+  if constexpr (std::is_same_v<Element, View>)
+    if (extension.read_view) extension.read_view(object, element);
+  if constexpr (std::is_same_v<Element, Primitive>)
+    if (extension.read_primitive) extension.read_primitive(object, element);
+}
+
+std::string phrase_of_dropped(const Extension& extension) {
+  return "extension " + std::string(extension.name) + ", which speaks of the order of vertices";
+}
+
 /// Has the table read the extensions of a view, a primitive or a mesh, and takes those out that are
 /// not kept.
 template <class Element>
@@ -59,15 +85,12 @@ void read_extensions(const Cursor& in, Element& element, std::vector<std::string
   for (const Extension* extension : gltf::extensions()) {
     const auto at = extensions->find(extension->name);
     if (at == extensions->end()) continue;
-    if constexpr (std::is_same_v<Element, View>)
-      if (extension->read_view) extension->read_view(*at, element);
-    if constexpr (std::is_same_v<Element, Primitive>)
-      if (extension->read_primitive) extension->read_primitive(*at, element);
+    if (at->is_object()) read_extension(in["extensions"][extension->name], *extension, element);
     if (extension->fate == Fate::kept) continue;
     extensions->erase(at);
     if (extension->fate == Fate::dropped &&
-        std::ranges::find(dropped, extension->name) == dropped.end())
-      dropped.emplace_back(extension->name);
+        std::ranges::find(dropped, phrase_of_dropped(*extension)) == dropped.end())
+      dropped.push_back(phrase_of_dropped(*extension));
   }
   if (extensions->empty() && before > 0) in.value().erase("extensions");
 }
@@ -336,6 +359,9 @@ Result<Document> parse(std::string_view text, std::uint64_t json_offset, const L
   root.value().erase("buffers");
   remove_names(root.value(), "extensionsUsed");
   remove_names(root.value(), "extensionsRequired");
+  for (const std::string& name :
+       drop_unknown_references(root.value(), std::max(out.accessors.size(), out.views.size())))
+    dropped.push_back("extension " + name + ", which may refer to what is renumbered");
   const std::string skeleton = root.value().dump();
   *parsed = nullptr;
   if (Result<void> kept = keep_rest(out, skeleton); !kept) return tl::unexpected(kept.error());

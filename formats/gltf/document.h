@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,7 +27,15 @@ struct View {
   Index buffer = 0;
   std::uint64_t offset = 0, bytes = 0;
   std::uint64_t stride = 0;  ///< 0: packed
-  bool compressed = false;   ///< also stored with meshopt compression
+
+  /// How meshopt compression stores it beside.
+  struct Compressed {
+    Index buffer = 0;
+    std::uint64_t offset = 0, bytes = 0;
+    std::uint64_t stride = 0, count = 0;
+    std::string mode, filter;
+  };
+  std::optional<Compressed> compressed;
 };
 
 struct Accessor {
@@ -63,7 +72,13 @@ struct Primitive {
   Index indices = kNone;
   Index material = kNone;
   Mode mode = Mode::triangles;
-  bool compressed = false;  ///< also stored with Draco compression
+
+  /// How Draco compression stores it beside.
+  struct Compressed {
+    Index view = 0;
+    std::vector<std::pair<std::string, std::uint32_t>> attributes;  ///< name and Draco's id
+  };
+  std::optional<Compressed> compressed;
 
   /// glTF lets viewers skip a primitive without positions; it stays in Document::rest as it is.
   bool has_position() const {

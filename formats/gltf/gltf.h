@@ -29,12 +29,15 @@ namespace pstrips::inline formats {
 ///             that the file wrote. The rest of the asset (cameras, skins, animations, extensions,
 ///             extras …) goes to the foreign keys "gltf/…", from which write_gltf restores it.
 ///
+/// Draco and meshopt compression are decoded where there are no plain bytes beside.
+///
 /// `dropped`, when given, receives what the model cannot hold, one phrase each: extensions that
-/// speak of the vertex order of the file (they are left out), indices beyond whole faces.
+/// speak of the vertex order of the file or whose references nobody here knows (they are left out),
+/// indices beyond whole faces, bytes after the end of a .glb.
 ///
 /// errors  truncated, corrupt, over_limit, with a byte offset or a JSON pointer; unsupported for
-///         glTF 1, for required extensions that this build does not know, for draco- or meshopt-
-///         compressed geometry without a plain fallback, and for URIs that leave the folder;
+///         glTF 1.0, for required extensions that this build does not know, and for URIs that leave
+///         the folder;
 ///         whatever `read_file` answers
 /// cost    O(size) and memory by `limits`; same bytes, same model
 Result<Model> read_gltf(ByteView file, const ReadFile& read_file, const Limits& limits = {},

@@ -91,6 +91,7 @@ class Mender {
 
   void mend_normals(Fitted& fitted) {
     const Attribute& in = fitted.attribute();
+    if (!is_float(fitted)) return;  // as near to unit length as its integers come
     std::uint64_t wrong = 0, without = 0;
     for (std::size_t i = 0; i < in.elements(); ++i) {
       const Point n = direction_of(in, i);
@@ -104,7 +105,6 @@ class Mender {
       notes_.dropped.push_back("attribute NORMAL, all of length 0");
       return remove("NORMAL");
     }
-    make_float(fitted);
     Attribute& out = own(fitted);
     if (wrong > 0)
       notes_.converted.push_back(count_of(wrong, "NORMAL") + " brought to unit length");
@@ -114,16 +114,6 @@ class Mender {
       if (size > 0 && !is_unit(n)) set_direction(out, i, n * (1 / size));
     }
     if (without > 0) compute_normals(out);
-  }
-
-  static void make_float(Fitted& fitted) {
-    const Attribute& in = fitted.attribute();
-    if (in.type == ComponentType::f32) return;
-    Attribute out{in.semantic, ComponentType::f32, in.count, false, {}};
-    out.data.resize(in.elements() * out.element_bytes());
-    for (std::size_t i = 0; i < in.elements(); ++i)
-      for (std::size_t c = 0; c < in.count; ++c) set_component(out, i, c, component(in, i, c));
-    fitted.converted = std::move(out);
   }
 
   /// Twice the area times the normal of a polygon.
@@ -168,6 +158,7 @@ class Mender {
       return remove("TANGENT");
     }
     const Attribute& in = fitted.attribute();
+    if (!is_float(fitted)) return;
     std::uint64_t wrong = 0;
     bool without = false;
     for (std::size_t i = 0; i < in.elements(); ++i) {
@@ -182,7 +173,6 @@ class Mender {
       return remove("TANGENT");
     }
     notes_.converted.push_back(count_of(wrong, "TANGENT") + " brought to unit length");
-    make_float(fitted);
     Attribute& out = own(fitted);
     for (std::size_t i = 0; i < out.elements(); ++i) {
       const Point t = direction_of(out, i);

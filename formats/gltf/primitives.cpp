@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/equal_elements.h"
+#include "formats/gltf/draco_primitive.h"
 
 namespace pstrips::inline formats::gltf {
 namespace {
@@ -204,15 +205,11 @@ class MeshReader {
     const Accessor& positions = document_.accessors[position->second];
     if (positions.components != 3 || positions.type == ComponentType::u32)
       return refuse(ErrorCode::corrupt, "positions are not of a type for them", path);
-    bool has_bytes = in.indices == kNone || document_.accessors[in.indices].view != kNone;
     for (const auto& [name, accessor] : in.attributes) {
       if (document_.accessors[accessor].count != positions.count)
         return refuse(ErrorCode::corrupt, "attributes of different lengths",
                       path + "/attributes/" + name);
-      has_bytes &= document_.accessors[accessor].view != kNone;
     }
-    if (in.compressed && !has_bytes)
-      return refuse(ErrorCode::unsupported, "Draco compression without a fallback", path);
     return {};
   }
 
@@ -292,6 +289,11 @@ class MeshReader {
     if (++primitives_ > limits_.meshes)
       return refuse(ErrorCode::over_limit,
                     over_limit_message(primitives_, "primitives", limits_.meshes), path);
+    const bool is_decoded = needs_draco(document_, in);
+    if (is_decoded)
+      if (auto read = read_draco(data_, document_, in, limits_, path); !read) return read;
+    // A Draco payload holds triangles, whatever strips were made of.
+    const Mode mode = is_decoded ? Mode::triangles : in.mode;
     Draft& draft = draft_for(gltf_mesh, in);
     const Result<Index> first = add_wedges(in, draft, path);
     if (!first) return tl::unexpected(first.error());
@@ -303,8 +305,8 @@ class MeshReader {
     const std::uint64_t vertices = document_.accessors[in.attributes.front().second].count;
     const bool indexed = in.indices != kNone;
     const std::uint64_t count = indexed ? document_.accessors[in.indices].count : vertices;
-    const std::uint64_t corners = most_corners(in.mode, count);
-    if (leaves_indices_over(in.mode, count))
+    const std::uint64_t corners = most_corners(mode, count);
+    if (leaves_indices_over(mode, count))
       dropped_.push_back("indices beyond whole faces of " + path);
     if (corners > corners_left_ || corners > kMaxCount - mesh.corners.size())
       return refuse(ErrorCode::over_limit,
@@ -322,9 +324,9 @@ class MeshReader {
       return refuse(ErrorCode::over_limit, budget_.refusal(corners * 2 * sizeof(Index)), path);
     FaceWriter faces(mesh, group);
     if (indexed)
-      faces.write(in.mode, indices.size(), [&](std::size_t i) { return *first + indices[i]; });
+      faces.write(mode, indices.size(), [&](std::size_t i) { return *first + indices[i]; });
     else
-      faces.write(in.mode, vertices, [&](std::size_t i) { return *first + static_cast<Index>(i); });
+      faces.write(mode, vertices, [&](std::size_t i) { return *first + static_cast<Index>(i); });
     return {};
   }
 

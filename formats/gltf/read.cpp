@@ -90,6 +90,8 @@ Result<Model> read_gltf(ByteView file, const ReadFile& read_file, const Limits& 
   Result<Document> document = parse(container->json, container->json_offset, limits, *dropped);
   if (!document) return tl::unexpected(std::move(document).error());
 
+  if (container->bytes_after > 0)
+    dropped->push_back(std::to_string(container->bytes_after) + " bytes after the end of the .glb");
   Budget budget(limits);
   Data data(*document, container->bin, read_file, budget);
   Model model;

@@ -6,9 +6,9 @@ namespace pstrips::inline formats::gltf {
 namespace {
 
 constexpr const Extension* kExtensions[] = {
-    &kDracoCompression,  &kExtMeshopt,         &kKhrMeshopt,      &kMeshQuantization,
-    &kMeshGpuInstancing, &kStructuralMetadata, &kTextureBasisu,   &kTextureWebp,
-    &kTextureAvif,       &kMeshManifold,       &kPrimitiveOutline};
+    &kDracoCompression,  &kExtMeshopt,         &kKhrMeshopt,     &kMeshQuantization,
+    &kMeshGpuInstancing, &kStructuralMetadata, &kTextureBasisu,  &kTextureWebp,
+    &kTextureAvif,       &kMeshManifold,       &kEdgeVisibility, &kPrimitiveOutline};
 
 // Extensions that a file may require, since they leave the geometry alone: nothing is to be done
 // for them but to keep them.
@@ -22,6 +22,15 @@ constexpr Extension kKeptAsTheyAre[] = {
     {.name = "KHR_node_visibility", .may_be_required = true},
     {.name = "GOOGLE_texture_basis", .may_be_required = true},
     {.name = "CESIUM_RTC", .may_be_required = true},
+    // Their numbers are those of nodes, meshes, materials, textures and their own lists.
+    {.name = "KHR_audio_emitter"},
+    {.name = "KHR_implicit_shapes"},
+    {.name = "KHR_interactivity"},
+    {.name = "KHR_node_hoverability"},
+    {.name = "KHR_node_selectability"},
+    {.name = "KHR_physics_rigid_bodies"},
+    {.name = "AGI_articulations"},
+    {.name = "VRM"},
 };
 
 // The same for families, by the beginnings of their names.
@@ -32,6 +41,8 @@ constexpr Extension kFamilies[] = {
     {.name = "KHR_lights_", .may_be_required = true},
     {.name = "EXT_lights_", .may_be_required = true},
     {.name = "MSFT_texture_", .may_be_required = true},
+    {.name = "MSFT_packing_", .may_be_required = true},
+    {.name = "VRMC_"},
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "core/scene.h"
 #include "formats/gltf/document.h"
 #include "formats/gltf/fit.h"
-#include "formats/gltf/json.h"
+#include "formats/gltf/json_cursor.h"
 
 namespace pstrips::inline formats::gltf {
 
@@ -29,8 +29,8 @@ struct Extension {
   bool may_be_required = false;
 
   /// Reads its object in a view or a primitive.
-  void (*read_view)(const json& object, View& view) = nullptr;
-  void (*read_primitive)(const json& object, Primitive& primitive) = nullptr;
+  void (*read_view)(const Cursor& object, View& view) = nullptr;
+  void (*read_primitive)(const Cursor& object, Primitive& primitive) = nullptr;
   /// Its object in a texture has the image as "source".
   bool holds_texture_source = false;
   /// What the member `key` of an object under `parent` refers to, where it does not follow the
@@ -60,6 +60,6 @@ extern const Extension kMeshQuantization;
 extern const Extension kMeshGpuInstancing;
 extern const Extension kStructuralMetadata;
 extern const Extension kTextureBasisu, kTextureWebp, kTextureAvif;
-extern const Extension kMeshManifold, kPrimitiveOutline;
+extern const Extension kMeshManifold, kEdgeVisibility, kPrimitiveOutline;
 
 }  // namespace pstrips::inline formats::gltf

@@ -49,7 +49,7 @@ const BadJson kBadJson[] = {
     {"no_such_child", R"("nodes":[{"children":[1]}])", ErrorCode::corrupt, "/nodes/0/children/0"},
     {"short_matrix", R"("nodes":[{"matrix":[1,2]}])", ErrorCode::corrupt, "/nodes/0/matrix"},
     {"animation_input", R"("animations":[{"samplers":[{"input":0}]}])", ErrorCode::corrupt, ""},
-    {"required", R"("extensionsRequired":["KHR_draco_mesh_compression"])", ErrorCode::unsupported,
+    {"required", R"("extensionsRequired":["VENDOR_geometry"])", ErrorCode::unsupported,
      "/extensionsRequired"},
     {"view_past_buffer",
      BUFFER
@@ -118,16 +118,22 @@ const BadJson kBadJson[] = {
      R"("accessors":[{"componentType":5126,"count":2,"type":"VEC3","sparse":{"count":2,)"
      R"("indices":{"bufferView":0,"componentType":5121},"values":{"bufferView":0}}}],)" POINTS,
      ErrorCode::corrupt, "/accessors/0"},
-    {"draco_without_fallback",
+    {"draco_without_indices",
      R"("accessors":[{"componentType":5126,"count":3,"type":"VEC3"}],)"
      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},)"
      R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}]}])",
-     ErrorCode::unsupported, "/meshes/0/primitives/0"},
-    {"meshopt_without_fallback",
+     ErrorCode::corrupt, "/meshes/0/primitives/0"},
+    {"draco_that_is_none",
+     BUFFER VIEW R"("accessors":[{"componentType":5126,"count":3,"type":"VEC3"},)"
+                 R"({"componentType":5123,"count":3,"type":"SCALAR"}],)"
+                 R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,)"
+                 R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}]}])",
+     ErrorCode::corrupt, "/meshes/0/primitives/0"},
+    {"meshopt_without_numbers",
      R"("buffers":[{"byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36,)"
      R"("extensions":{"EXT_meshopt_compression":{}}}],)"
      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)" POINTS,
-     ErrorCode::unsupported, "/buffers/0"},
+     ErrorCode::corrupt, "/bufferViews/0"},
     {"image_twice", BUFFER VIEW R"("images":[{"uri":"a.png","bufferView":0}])", ErrorCode::corrupt,
      "/images/0"},
     {"view_of_extension", R"("extensions":{"X":{"bufferView":3}})", ErrorCode::corrupt, ""},

@@ -30,8 +30,7 @@ TEST(Extensions, AreFoundByNameElseByFamily) {
 // A file may require what leaves its geometry readable, and nothing else.
 TEST(Extensions, ThatHideGeometryMayNotBeRequired) {
   for (const Extension* extension : extensions()) {
-    const bool hides =
-        extension->read_view || extension->read_primitive || extension->fate == Fate::dropped;
+    const bool hides = extension->fate == Fate::dropped;
     EXPECT_EQ(extension->may_be_required, !hides) << extension->name;
   }
 }

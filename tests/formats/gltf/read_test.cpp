@@ -321,16 +321,90 @@ TEST(ReadGltf, ReadsCompressedGeometryThroughItsFallback) {
 }
 
 TEST(ReadGltf, NamesExtensionsItLeavesOut) {
+  struct Case {
+    const char* extension;
+    const char* primitive;  // its object there, null: none
+    const char* material;
+    const char* said;  // empty: it is kept
+  };
+  const Case cases[] = {
+      {"EXT_mesh_primitive_edge_visibility", R"({"visibility":0})", nullptr,
+       "extension EXT_mesh_primitive_edge_visibility, which speaks of the order of vertices"},
+      {"CESIUM_primitive_outline", R"({"indices":0})", nullptr,
+       "extension CESIUM_primitive_outline, which speaks of the order of vertices"},
+      {"VENDOR_lines", R"({"accessor":0})", nullptr,
+       "extension VENDOR_lines, which may refer to what is renumbered"},
+      {"VENDOR_lines", R"({"count":77})", nullptr,
+       "extension VENDOR_lines, which may refer to what is renumbered"},
+      {"VENDOR_paint", nullptr, R"({"layers":[{"mask":1}]})",
+       "extension VENDOR_paint, which may refer to what is renumbered"},
+      {"VENDOR_paint", nullptr, R"({"bufferView":0,"gloss":0.5,"name":"x","steps":9})", ""},
+      {"VENDOR_paint", R"({"name":"x"})", R"({"accessor":1})", ""},
+      {"KHR_materials_sheen", nullptr, R"({"sheenColorTexture":{"index":0}})", ""},
+  };
+  for (const Case& c : cases) {
+    SCOPED_TRACE(std::string(c.extension) + " " + (c.primitive ? c.primitive : c.material));
+    Asset asset;
+    asset.floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
+    asset.floats("SCALAR", 1, {1});
+    const auto extensions = [&](const char* object) {
+      const std::string name = c.extension;
+      return object ? R"("extensions":{")" + name + "\":" + object + "}" : R"("extras":1)";
+    };
+    std::vector<std::string> dropped;
+    const auto model = read_text(
+        asset.json(R"("extensionsUsed":[")" + std::string(c.extension) + R"("],"materials":[{)" +
+                   extensions(c.material) + "}]," +
+                   mesh_of(R"({"attributes":{"POSITION":0},)" + extensions(c.primitive) + "}")),
+        {}, &dropped);
+    ASSERT_TRUE(model) << model.error().message;
+    const bool is_kept = *c.said == '\0';
+    EXPECT_EQ(dropped, is_kept ? std::vector<std::string>{} : std::vector<std::string>{c.said});
+    const std::string rest(as_text(model->scene.foreign[0].data));
+    EXPECT_EQ(rest.find(c.extension) != std::string::npos, is_kept) << rest;
+  }
+}
+
+TEST(ReadGltf, TakesDataUrisOfAnyForm) {
+  for (const char* uri :
+       {"data:application/octet-stream;base64,AACAPwAAAEAAAEBA", "data:;base64,AACAPwAAAEAAAEBA",
+        "DATA:;charset=x;BASE64,AACA PwAA\\nAEAAAEBA", "data:;base64,AACAPwAAAEAAAEB%41",
+        "data:,%00%00%80%3f%00%00%00%40%00%00%40%40",
+        "data:text/plain,%00%00%80?%00%00%00@%00%00@@"}) {
+    SCOPED_TRACE(uri);
+    const Model model = read_good(
+        R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":12,"uri":")" + std::string(uri) +
+        R"("}],"bufferViews":[{"buffer":0,"byteLength":12}],)"
+        R"("accessors":[{"componentType":5126,"count":1,"type":"VEC3","bufferView":0}],)" +
+        mesh_of(R"({"attributes":{"POSITION":0},"mode":0})") + "}");
+    ASSERT_EQ(model.meshes.size(), 1u);
+    EXPECT_EQ(test::values_of<float>(model.meshes[0].position.data), (std::vector<float>{1, 2, 3}));
+  }
+}
+
+TEST(ReadGltf, SaysThatAFileIsOfTheFirstVersion) {
+  Bytes binary = test::bytes_of<std::uint32_t>({0x46546c67, 1, 24, 0, 0, 0});
+  for (const ByteView file :
+       {as_bytes(R"({"asset":{"version":"1.0"}})"), as_bytes(R"({"meshes":{"a":{}}})"),
+        as_bytes(R"({"asset":{"version":"1.1"},"accessors":{}})"), ByteView(binary)}) {
+    const auto model = read_gltf(file, {});
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(model.error().message, "glTF 1.0");
+  }
+}
+
+TEST(ReadGltf, WarnsOfBytesAfterTheEnd) {
   Asset asset;
   asset.floats("VEC3", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  Bytes file = asset.glb(mesh_of(R"({"attributes":{"POSITION":0}})"));
+  const Model model = *read_gltf(file, {});
+  file.resize(file.size() + 3);
   std::vector<std::string> dropped;
-  const auto model = read_text(
-      asset.json(
-          R"("extensionsUsed":["EXT_mesh_manifold"],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}],)"
-          R"("extensions":{"EXT_mesh_manifold":{"mergeIndices":0}}}])"),
-      {}, &dropped);
-  ASSERT_TRUE(model);
-  EXPECT_EQ(dropped, std::vector<std::string>{"EXT_mesh_manifold"});
+  const auto again = read_gltf(file, {}, {}, &dropped);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(*again == model);
+  EXPECT_EQ(dropped, std::vector<std::string>{"3 bytes after the end of the .glb"});
 }
 
 TEST(ReadGltf, AsksOnlyForFilesInsideTheFolder) {
@@ -353,8 +427,9 @@ TEST(ReadGltf, AsksOnlyForFilesInsideTheFolder) {
       {"file:a.bin", nullptr},
       {"C%3A/a.bin", nullptr},
       {"a%00.bin", nullptr},
-      {"a%2", nullptr},
-      {"a%zz", nullptr},
+      {"a%2", "a%2"},
+      {"100%.bin", "100%.bin"},
+      {"a%zz%20", "a%zz "},
       {"", nullptr},
   };
   for (const Case& c : cases) {
