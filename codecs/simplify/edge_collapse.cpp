@@ -14,6 +14,7 @@
 
 #include "codecs/simplify/collapse_driver.h"
 #include "codecs/simplify/face_planes.h"
+#include "codecs/simplify/new_face_distance.h"
 #include "codecs/simplify/placement.h"
 #include "core/parallel.h"
 
@@ -60,6 +61,68 @@ float history_error(const Complex& complex, Index q, Index p, Vec3f place) {
          complex.vertices[p].quadric.at(kept_place);
 }
 
+void apply_limit(const CollapseState& state, const Star& star, StarEdge& edge, float wedge_error) {
+  if (!state.is_limited()) return;
+  const Index q = star.vertex, p = edge.vertex;
+  const float all =
+      state.complex.vertices[q].quadric.weight + state.complex.vertices[p].quadric.weight;
+  if (history_error(state.complex, q, p, edge.place) + wedge_error > state.max_squared_error * all)
+    edge.cost = kInfiniteCost;
+}
+
+void update_all(FacePlanes& planes, unsigned threads) {
+  parallel_for(threads, planes.face_count(), std::size_t{1} << 16,
+               [&](std::size_t begin, std::size_t end) {
+                 for (Index t = static_cast<Index>(begin); t < end; ++t) planes.update(t);
+               });
+}
+
+// How far the new faces leave the places where both ends of an edge stood, or their own vertex the
+// old faces; `place` and `offset` are as of StarEdge.
+float squared_loss(const Star& from, const Star& kept, Vec3f place, Vec3f offset) {
+  const auto loss = [&](Vec3f point) {
+    return std::min(squared_new_face_distance(from, place, point, kept.vertex),
+                    squared_new_face_distance(kept, place - offset, point - offset, from.vertex));
+  };
+  const float beyond = std::min(squared_new_face_distance(from, {}, place, kNone),
+                                squared_new_face_distance(kept, {}, place - offset, kNone));
+  return std::max({loss({}), loss(offset), beyond});
+}
+
+// Whether faces of two measured stars look in nearly opposite directions, as on both sides of a
+// thin shell: each lies near the planes of the other.
+bool has_back_to_back(const Star& a, const Star& b) {
+  constexpr float kOpposite = -0.7f;
+  for (const Star* star : {&a, &b})
+    for (Index i = 0; i < star->corners.size(); ++i)
+      for (Index k = 0; k < b.corners.size(); ++k)
+        if (dot(star->normal(i), b.normal(k)) < kOpposite) return true;
+  return false;
+}
+
+// Where planes are blind, adds to the cost of an edge what its place loses; puts it at one of the
+// ends if that costs less.
+void place_sharp(const Complex& complex, Star& from, Star& kept, const EdgeSum& sum, bool may_move,
+                 StarEdge& edge) {
+  from.measure();
+  kept.measure();
+  if (!has_back_to_back(from, kept) && !has_back_to_back(from, from)) return;
+  const Vec3f offset = complex.offset(from.vertex, kept.vertex);
+  const float weight =
+      complex.vertices[from.vertex].quadric.weight + complex.vertices[kept.vertex].quadric.weight;
+  const float without_error = edge.cost - edge.error;
+  edge.cost += weight * squared_loss(from, kept, edge.place, offset);
+  if (!may_move) return;
+  for (const Vec3f end : {Vec3f{}, offset}) {
+    const float error = std::max(0.f, sum.constant + sum.quadric.at(end));
+    const float cost = without_error + error + weight * squared_loss(from, kept, end, offset);
+    if (!(cost < edge.cost)) continue;
+    edge.place = end;
+    edge.error = error;
+    edge.cost = cost;
+  }
+}
+
 // Calls visit(vertex, scratch star) for all that may collapse, on several threads.
 template <class Visit>
 void for_vertices(const Complex& complex, unsigned threads, Visit&& visit) {
@@ -77,7 +140,7 @@ class EdgePricer {
 
   std::vector<float> first_keys();
   Star& price(Index q);
-  StarEdge* cheapest() { return star_.cheapest(); }
+  StarEdge* cheapest();
   CollapseConstraint check(const StarEdge& edge);
   bool is_large() const { return is_large(star_.vertex); }
   float weight() const { return complex_.vertices[star_.vertex].quadric.weight; }
@@ -113,7 +176,6 @@ class EdgePricer {
   void price_plain(const Star& star, const Index (&at)[4]);
   void price_any(const Star& star, StarEdge& edge, float live_weight);
   EdgeSum sum_of(const Star& star, const StarEdge& edge) const;
-  void apply_limit(const Star& star, StarEdge& edge, float wedge_error) const;
   float least_owned(const Star& star) const;
 
   void join_quadrics(Index q, Index p, Vec3f place, float wedge_constant);
@@ -128,7 +190,7 @@ class EdgePricer {
   const bool optimal_;
   std::optional<FacePlanes> planes_;  // memoryless: of all vertices whose ring is not large
   AttributeQuadrics attributes_;      // memoryless
-  std::vector<std::uint8_t> large_, moved_;
+  std::vector<std::uint8_t> large_, sharp_, moved_;  // sharp: planes may be blind, as at a rim
   std::vector<std::uint8_t> border_rank_;  // 1 for what came to a border, 2 for where several meet
   Star star_, kept_star_, scratch_;
   bool is_measured_ = false;  // star_
@@ -139,6 +201,7 @@ EdgePricer::EdgePricer(CollapseState& state)
       complex_(state.complex),
       optimal_(state.options.placement == Placement::optimal),
       large_(complex_.vertex_count()),
+      sharp_(complex_.vertex_count()),
       border_rank_(complex_.vertex_count()) {
   if (s_.memoryless) planes_.emplace(complex_, s_.builder);
   if (s_.memoryless && s_.input.attribute_count > 0) attributes_.resize(complex_.vertex_count());
@@ -167,11 +230,7 @@ std::vector<float> EdgePricer::first_keys() {
 void EdgePricer::start_all(std::vector<std::uint8_t>& is_plain) {
   if (s_.wedges)
     s_.builder.add_attributes(attributes_.empty() ? nullptr : attributes_.quadrics.data());
-  if (planes_)
-    parallel_for(s_.options.threads, planes_->face_count(), std::size_t{1} << 16,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (Index t = static_cast<Index>(begin); t < end; ++t) planes_->update(t);
-                 });
+  if (planes_) update_all(*planes_, s_.options.threads);
   for_vertices(complex_, s_.options.threads,
                [&](Index v, Star& star) { is_plain[v] = start_plain(v, star); });
   for (Index v = 0; v < is_plain.size(); ++v)
@@ -201,6 +260,7 @@ void EdgePricer::start(Index v, Star& star) {
                    });
   border_rank_[v] = star.open_edges > 2 ? 2 : star.open_edges > 0 ? 1 : 0;
   record.quadric.add_matrix(star.measure());
+  sharp_[v] = optimal_ && QuadricBuilder::may_fold(star);
   s_.builder.add_edges(star, record.quadric);
   if (planes_) planes_->sum(star, has_line_terms(v));
 }
@@ -278,7 +338,7 @@ void EdgePricer::price_plain(const Star& star, const Index (&at)[4]) {
     edge.place = lane(place, i);
     edge.error = error[i];
     edge.cost = cost[i] < kInfiniteCost ? cost[i] : kInfiniteCost;
-    apply_limit(star, edge, 0);
+    apply_limit(s_, star, edge, 0);
   }
 }
 
@@ -313,7 +373,7 @@ void EdgePricer::price_any(const Star& star, StarEdge& edge, float live_weight) 
   edge.cost = edge.error + kLengthShare * weight * length + wedge_cost.conflicts +
               kReassignedShare * reassigned * length;
   if (!(edge.cost < kInfiniteCost)) edge.cost = kInfiniteCost;
-  apply_limit(star, edge, wedge_cost.at(edge.place));
+  apply_limit(s_, star, edge, wedge_cost.at(edge.place));
 }
 
 // The error as a function of where the edge's end is placed.
@@ -333,19 +393,24 @@ EdgeSum EdgePricer::sum_of(const Star& star, const StarEdge& edge) const {
   return sum;
 }
 
-void EdgePricer::apply_limit(const Star& star, StarEdge& edge, float wedge_error) const {
-  if (!s_.is_limited()) return;
-  const Index q = star.vertex, p = edge.vertex;
-  const float all = complex_.vertices[q].quadric.weight + complex_.vertices[p].quadric.weight;
-  if (history_error(complex_, q, p, edge.place) + wedge_error > s_.max_squared_error * all)
-    edge.cost = kInfiniteCost;
-}
-
 float EdgePricer::least_owned(const Star& star) const {
   float least = kInfiniteCost;
   for (const StarEdge& edge : star.edges)
     if (owns(star.vertex, edge.vertex)) least = std::min(least, edge.cost);
   return least;
+}
+
+// As of half-edge collapses, the distance to the new faces counts where it may decide.
+StarEdge* EdgePricer::cheapest() {
+  for (;;) {
+    StarEdge* const best = star_.cheapest();
+    if (!best || best->counts_new_faces || best->cost == kInfiniteCost) return best;
+    const Index q = star_.vertex, p = best->vertex;
+    if (sharp_[q] + sharp_[p] == 0 || is_large(q) || is_large(p)) return best;
+    best->counts_new_faces = true;
+    gather(p, kept_star_);
+    place_sharp(complex_, star_, kept_star_, sum_of(star_, *best), !s_.wedges, *best);
+  }
 }
 
 CollapseConstraint EdgePricer::check(const StarEdge& edge) {
@@ -385,6 +450,7 @@ void EdgePricer::collapse(const StarEdge& edge) {
   const bool becomes_large = !is_large(p) && complex_.vertices[p].ring_size > kLargeRing;
   if (becomes_large) large_[p] = 1;
   border_rank_[p] = std::max(border_rank_[p], border_rank_[q]);
+  sharp_[p] |= sharp_[q];
   complex_.vertices[q].key = kInfiniteCost;
   if (has_moved) {
     complex_.points[p].position = complex_.points[p].position + shift;

@@ -31,4 +31,27 @@ float squared_new_face_distance(const Star& star, Vec3f offset) {
   return std::min({least[0], least[1], least[2], least[3]});
 }
 
+float squared_new_face_distance(const Star& star, Vec3f apex, Vec3f point, Index other) {
+  const Vec3f to_apex = apex - point;
+  float least = dot(to_apex, to_apex);
+  for (std::size_t i = 0; i < star.corners.size(); ++i) {
+    if (star.corners[i].next == other || star.corners[i].previous == other) continue;
+    const CornerGroup& group = star.corner_groups[i / 4];
+    const Vec3f a = lane(group.next, i % 4) - point, b = lane(group.previous, i % 4) - point;
+    const Vec3f along = a - to_apex;
+    const float length = dot(along, along);
+    const float t = length > 0 ? std::clamp(-dot(to_apex, along) / length, 0.f, 1.f) : 0.f;
+    const Vec3f foot = to_apex + along * t;
+    least = std::min(least, dot(foot, foot));
+    const Vec3f n = cross(along, b - to_apex);
+    const float size = dot(n, n);
+    if (size > 0 && dot(cross(a, b), n) >= 0 && dot(cross(b, to_apex), n) >= 0 &&
+        dot(cross(to_apex, a), n) >= 0) {
+      const float height = dot(to_apex, n);
+      least = std::min(least, height * height / size);
+    }
+  }
+  return least;
+}
+
 }  // namespace pstrips::inline codecs

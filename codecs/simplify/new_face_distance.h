@@ -10,4 +10,8 @@ namespace pstrips::inline codecs {
 /// lies near all of them wherever it goes. Cost O(star); the star must have been measured.
 float squared_new_face_distance(const Star& star, Vec3f offset);
 
+/// The same of any point where the star's vertex goes to `apex`, both as offsets from it, over the
+/// faces that the vertex `other` is not on.
+float squared_new_face_distance(const Star& star, Vec3f apex, Vec3f point, Index other);
+
 }  // namespace pstrips::inline codecs
