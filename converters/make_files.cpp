@@ -58,6 +58,18 @@ void note_ply_losses(const Scene& scene, std::vector<std::string>& notes) {
   if (std::ranges::any_of(scene.nodes, is_moved)) notes.emplace_back("node transforms");
 }
 
+// The same of faces that are not polygons.
+void note_ply_losses(const Mesh& mesh, std::vector<std::string>& notes) {
+  bool has_points = false, has_long_lines = false;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const FaceKind kind = mesh.groups[mesh.group_of(f)].kind;
+    has_points |= kind == FaceKind::points;
+    has_long_lines |= kind == FaceKind::lines && mesh.face(f).size() > 2;
+  }
+  if (has_points) notes.emplace_back("that points are faces: they are vertices");
+  if (has_long_lines) notes.emplace_back("which edges are one line");
+}
+
 Result<FileSet> make_any_gltf(const Model& model, const OutputName& name, bool binary,
                               const SaveOptions& options) {
   // Concave polygons are more than the fans that a format can make of them.
@@ -100,11 +112,15 @@ Result<FileSet> make_ply(const Model& model, const OutputName& name, const SaveO
   const bool several = model.meshes.size() > 1;
   const Model one = several ? merge_meshes(model, notes) : Model{};
   note_ply_losses(model.scene, notes);
+  for (const Mesh& mesh : model.meshes) note_ply_losses(mesh, notes);
+  std::vector<std::string> dropped;
   auto bytes = write_ply(several ? one : model,
                          {.format = options.ascii ? PlyWriteOptions::Format::ascii
                                                   : PlyWriteOptions::Format::little_endian,
-                          .threads = options.threads});
+                          .threads = options.threads},
+                         &dropped);
   if (!bytes) return tl::unexpected(bytes.error());
+  notes.insert(notes.end(), dropped.begin(), dropped.end());
   return one_file(name, std::move(bytes).value(), std::move(notes));
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/limits.h"
 #include "core/result.h"
 #include "core/scene.h"
@@ -29,6 +32,9 @@ namespace pstrips::inline formats {
 ///   Equal pairs at a vertex are one wedge; wedges ascend by vertex, then by first use; a vertex
 ///   without a face has one wedge with zeros.
 /// - `comment TextureFile`: an image and a material each. With `texnumber` each has its group.
+/// - edges with vertex1 and vertex2 alone: lines of two corners, in a group behind the others,
+/// whose
+///   face attributes are zeros.
 /// - comments, obj_info, other elements and lists, and bytes after the end of a binary body (which
 ///   other readers ignore): Scene::foreign, so that write_ply puts them back.
 ///
@@ -51,6 +57,9 @@ struct PlyWriteOptions {
 /// vertices (edges, lists of vertices and faces) once vertices or faces have changed, and bytes
 /// after the end in ascii.
 ///
+/// Lines become edges, one for each two corners that follow each other; points are vertices
+/// without a face. Face attributes of both are left out.
+///
 /// Attributes that all wedges of a vertex share are vertex properties. Where wedges differ in
 /// TEXCOORD_0 alone, faces get a texcoord list. Otherwise each wedge is a row, and a property
 /// wedge_vertex under a comment of ours lets read_ply find the vertices again.
@@ -60,8 +69,14 @@ struct PlyWriteOptions {
 ///
 /// cost    O(size); same model, same bytes
 /// errors  bad_argument for several meshes, an inconsistent mesh or foreign data that does not
-///         parse; unsupported for positions of other than three components and for groups of lines
-///         or points
-Result<Bytes> write_ply(const Model& model, const PlyWriteOptions& options = {});
+///         parse; unsupported for positions of other than three components
+///
+/// dropped  receives names of elements and lists that are left out, unless null
+Result<Bytes> write_ply(const Model& model, const PlyWriteOptions& options = {},
+                        std::vector<std::string>* dropped = nullptr);
+
+/// Whether the scene of a model that read_ply made has rows that mean something only while vertices
+/// and faces keep their order: edges, lists of vertices and faces.
+bool has_rows_bound_to_order(const Scene& scene);
 
 }  // namespace pstrips::inline formats

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "formats/ply/ply_edges.h"
 #include "formats/ply/ply_edit.h"
 #include "formats/ply/ply_numbers.h"
 
@@ -31,13 +32,8 @@ bool survives(const Attribute& doubles, std::size_t component, ComponentType typ
 }
 
 std::optional<Error> refusal(const Mesh& mesh) {
-  if (const std::string wrong = find_inconsistency(mesh); !wrong.empty())
-    return Error{ErrorCode::bad_argument, wrong};
   if (mesh.position.count != 3)
     return Error{ErrorCode::unsupported, "ply positions have three components"};
-  for (Index f = 0; f < mesh.face_count(); ++f)
-    if (mesh.groups[mesh.group_of(f)].kind != FaceKind::polygons)
-      return Error{ErrorCode::unsupported, "ply faces are neither lines nor points"};
   return std::nullopt;
 }
 
@@ -66,7 +62,11 @@ class HeaderWriter {
     std::vector<bool> gone;
     for (const Element& element : elements) {
       const bool ours = element.name == "vertex" || (mesh_ != nullptr && element.name == "face");
-      gone.push_back(ours ? mesh_ == nullptr : !is_whole(element));
+      // Its rows come from the lines.
+      const bool edges = out_.has_edges && element.name == "edge";
+      gone.push_back(ours ? mesh_ == nullptr : edges ? !is_edge_list(element) : !is_whole(element));
+      if (!ours && gone.back() && element.count != 0)
+        out_.dropped.push_back("element " + element.name);
     }
     erase_elements(header(), gone);
     if (mesh_ == nullptr) return;
@@ -196,8 +196,11 @@ class HeaderWriter {
 
   void drop_lost_lists(Element& element, std::uint64_t rows, const Layout& layout) {
     std::vector<bool> gone;
-    for (std::size_t p = 0; p < element.properties.size(); ++p)
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
       gone.push_back(layout.places[p].role == Role::kept && !keeps(element.properties[p], rows));
+      if (gone.back())
+        out_.dropped.push_back("list " + element.properties[p].name + " of " + element.name);
+    }
     erase_properties(header(), element, gone);
   }
 
@@ -333,7 +336,6 @@ Layout Description::layout_of(std::string_view element) const {
 }
 
 Result<void> describe(const Model& model, Encoding encoding, Description& out) {
-  if (model.meshes.size() > 1) return fail(ErrorCode::bad_argument, "ply holds one mesh");
   auto kept = get_kept(model.scene.foreign);
   if (!kept) return tl::unexpected(kept.error());
   const bool from_ply = kept->has_value();

@@ -41,10 +41,12 @@ struct Description {
   Shape shape = Shape::vertices;
   Index rows = 0;  ///< of the vertex element
   bool has_faces = false, faces_have_texcoords = false;
+  bool has_edges = false;               ///< set by whoever adds some; see add_edges()
   const Attribute* position = nullptr;  ///< the mesh's, or the one below
   Attribute scaled_position;            ///< in model units, of a normalized one
   std::optional<Attribute> texnumber;   ///< of the faces, where textures need numbers
   NamedAttributes wedge_attributes, face_attributes;
+  std::vector<std::string> dropped;  ///< names of kept elements and lists that have no place
 
   /// Of the vertex or the face element.
   Layout layout_of(std::string_view element) const;
@@ -52,7 +54,9 @@ struct Description {
 
 /// Describes a model of at most one mesh.
 ///
-/// errors  bad_argument for an inconsistent mesh, kept data that do not parse, and attributes whose
+/// Preconditions: the mesh is consistent and has only polygons.
+///
+/// errors  bad_argument for kept data that do not parse, and attributes whose
 ///         names clash; unsupported for what ply has no words for
 Result<void> describe(const Model& model, Encoding encoding, Description& out);
 

@@ -6,6 +6,7 @@
 #include "core/gather.h"
 #include "formats/ply/ply.h"
 #include "formats/ply/ply_body.h"
+#include "formats/ply/ply_edges.h"
 #include "formats/ply/ply_header.h"
 #include "formats/ply/ply_kept.h"
 #include "formats/ply/ply_layout.h"
@@ -40,6 +41,7 @@ class ModelReader {
       for (Element& e : kept_.header.elements)
         if (e.name == "vertex" || e.name == "face") e.count = 0;
       if (!kept_.columns.empty()) kept_.digest = digest_of(mesh_);
+      read_edges(kept_, vertex_layout_.has(Role::wedge_vertex), mesh_);
       model_.meshes.push_back(std::move(mesh_));
     }
     put_kept(kept_, model_.scene.foreign);

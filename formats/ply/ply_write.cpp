@@ -5,6 +5,7 @@
 #include "formats/ply/ply.h"
 #include "formats/ply/ply_body.h"
 #include "formats/ply/ply_description.h"
+#include "formats/ply/ply_edges.h"
 
 namespace pstrips::inline formats {
 namespace ply {
@@ -142,13 +143,37 @@ Bytes write_file(const Description& description, const Foreign* rest, unsigned t
 }  // namespace
 }  // namespace ply
 
-Result<Bytes> write_ply(const Model& model, const PlyWriteOptions& options) {
+Result<Bytes> write_ply(const Model& model, const PlyWriteOptions& options,
+                        std::vector<std::string>* dropped) {
+  if (model.meshes.size() > 1) return fail(ErrorCode::bad_argument, "ply holds one mesh");
+  if (!model.meshes.empty())
+    if (const std::string wrong = find_inconsistency(model.meshes.front()); !wrong.empty())
+      return fail(ErrorCode::bad_argument, wrong);
   ply::Description description;
-  const auto described =
-      ply::describe(model, static_cast<ply::Encoding>(options.format), description);
+  description.has_edges =
+      std::ranges::any_of(model.meshes, [](const Mesh& m) { return ply::has_lines_or_points(m); });
+  // Only what a mesh with other faces has is copied.
+  const Model polygons = description.has_edges
+                             ? Model{model.scene, {ply::polygons_of(model.meshes.front())}}
+                             : Model{};
+  const auto described = ply::describe(description.has_edges ? polygons : model,
+                                       static_cast<ply::Encoding>(options.format), description);
   if (!described) return tl::unexpected(described.error());
+  if (description.has_edges) ply::add_edges(model.meshes.front(), description);
+  if (dropped) *dropped = description.dropped;
   return ply::write_file(description, ply::find_foreign(model.scene.foreign, "ply/rest"),
                          options.threads);
+}
+
+bool has_rows_bound_to_order(const Scene& scene) {
+  const auto kept = ply::get_kept(scene.foreign);
+  return kept && kept->has_value() &&
+         std::ranges::any_of((*kept)->header.elements, [](const ply::Element& element) {
+           return (element.name == "vertex" || element.name == "face" || element.name == "edge") &&
+                  std::ranges::any_of(element.properties, [](const ply::Property& property) {
+                    return property.kept != ply::Property::kNotKept;
+                  });
+         });
 }
 
 }  // namespace pstrips::inline formats

@@ -178,7 +178,7 @@ const GoodFile kGoodFiles[] = {
          vertices(2, "property list uchar int near\n") +
          "element edge 1\nproperty int vertex1\nproperty int vertex2\n" +
          "element none 3\nend_header\n0.5 2 1e-05 2\n1 2 3 2 7 8\n4 5 6 0\n0 1\n",
-     "POSITION f32x3 1,2,3 4,5,6"},
+     "POSITION f32x3 1,2,3 4,5,6 | F 0,1 | G 1"},
     {"wedge_rows",
      vertices(3,
               "property int a\ncomment each row is a wedge, wedge_vertex is its vertex\nproperty "

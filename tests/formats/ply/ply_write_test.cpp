@@ -100,6 +100,63 @@ TEST(WritePly, MakesTheSameTextWithAnyNumberOfThreads) {
   EXPECT_EQ(read_ply(one).value().meshes.at(0).face_count(), 30'000u);
 }
 
+// A triangle, a line of three corners and a point, as an OBJ file may have them.
+Mesh mixed() {
+  Mesh mesh = test::triangle_mesh({0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2, 2}, {0, 1, 2, 3, 1, 0, 2});
+  mesh.groups = {
+      {"", kNone, FaceKind::polygons}, {"", kNone, FaceKind::lines}, {"", kNone, FaceKind::points}};
+  mesh.face_first = {0, 3, 6, 7};
+  mesh.face_group = {0, 1, 2};
+  return mesh;
+}
+
+TEST(WritePly, LinesBecomeEdges) {
+  const std::string text = text_of(model_of(mixed()));
+  EXPECT_NE(text.find("element face 1\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("element edge 2\nproperty int vertex1\nproperty int vertex2\nend_header\n"),
+            std::string::npos)
+      << text;
+  EXPECT_TRUE(text.ends_with("3 0 1 2\n3 1\n1 0\n")) << text;
+}
+
+TEST(WritePly, EdgesComeBackAsLines) {
+  for (const Format format : {Format::ascii, Format::little_endian, Format::big_endian}) {
+    const Model model = read_text(text_of(model_of(mixed()), format));
+    ASSERT_EQ(model.meshes.size(), 1u);
+    const Mesh& mesh = model.meshes[0];
+    EXPECT_EQ(mesh.corners, (std::vector<Index>{0, 1, 2, 3, 1, 1, 0}));
+    EXPECT_EQ(mesh.face_first, (std::vector<Index>{0, 3, 5, 7}));
+    EXPECT_EQ(mesh.groups.at(mesh.group_of(2)).kind, FaceKind::lines);
+    const auto again = write_ply(model, {format});
+    ASSERT_TRUE(again);
+    EXPECT_EQ(as_text(*again), text_of(model_of(mixed()), format));
+  }
+}
+
+TEST(WritePly, PointsAreVertices) {
+  Mesh mesh = test::triangle_mesh({0, 0, 0, 1, 0, 0}, {0, 1});
+  mesh.groups[0].kind = FaceKind::points;
+  mesh.face_first = {0, 1, 2};
+  EXPECT_EQ(text_of(model_of(mesh)),
+            "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n0 0 0\n1 0 0\n");
+}
+
+TEST(WritePly, SaysWhatVerticesNoLongerGoWith) {
+  Model model = read_text(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty list uchar int near\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n"
+      "0 0 0 1 1\n1 0 0 0\n0 1 0 0\n3 0 1 2\n");
+  EXPECT_TRUE(has_rows_bound_to_order(model.scene));
+  std::vector<std::string> dropped;
+  ASSERT_TRUE(write_ply(model, {}, &dropped));
+  EXPECT_TRUE(dropped.empty());
+  model.meshes[0].corners = {1, 2, 0};
+  ASSERT_TRUE(write_ply(model, {}, &dropped));
+  EXPECT_EQ(dropped, std::vector<std::string>{"list near of vertex"});
+}
+
 TEST(WritePly, RowsAreVerticesWhereWedgesAgree) {
   Mesh mesh = test::cube(true);
   mesh.wedge_attributes.clear();
@@ -193,8 +250,8 @@ TEST(WritePly, DropsRowsBoundToVerticesThatChanged) {
             "blue\nproperty int label\n"
             "element face 1\nproperty list uint8 uint8 vertex_index\nelement camera 1\nproperty "
             "float focal\n"
-            "comment last\nend_header\n"
-            "0 0 0 1 2 3 4\n1 0 0 1 2 3 5\n0 1 0 1 2 3 6\n3 1 0 2\n0.5\n");
+            "element edge 1\nproperty int vertex1\nproperty int vertex2\ncomment last\nend_header\n"
+            "0 0 0 1 2 3 4\n1 0 0 1 2 3 5\n0 1 0 1 2 3 6\n3 1 0 2\n0.5\n0 1\n");
 }
 
 TEST(WritePly, AddsAttributesBesideKeptWords) {
@@ -301,8 +358,6 @@ TEST(WritePly, RefusesWhatPlyCannotSay) {
        [](Model& m) {
          m.meshes[0].position = {"POSITION", ComponentType::f32, 2, false, Bytes(32)};
        },
-       ErrorCode::unsupported},
-      {"lines", [](Model& m) { m.meshes[0].groups[0].kind = FaceKind::lines; },
        ErrorCode::unsupported},
       {"position_twice", [](Model& m) { m.meshes[0].wedge_attributes = {m.meshes[0].position}; },
        ErrorCode::bad_argument},
