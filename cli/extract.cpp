@@ -32,15 +32,19 @@ Result<ProgressiveStrips> open_strips(const Options& options) {
   return std::get<ProgressiveStrips>(std::move(file->content));
 }
 
+// The error of the last whole packet is a bound for what comes after it.
 void report_level(const Streams& io, const Options& options, const ProgressiveStrips& strips,
-                  std::size_t packets) {
+                  const SplitLevel& at) {
   if (io.quiet || options.output.is_stdout()) return;
   SceneLevel level(strips);
-  for (std::size_t k = 0; k < packets; ++k) level.add(strips.packets[k]);
-  io.err << fmt::format(
-      "{}: packet {} of {}, {} vertices, {} triangles, error {}{}\n", escaped(options.output.path),
-      packets, strips.packets.size(), grouped(level.vertices()), grouped(level.triangles()),
-      four_digits(level.error()), strips.complete ? "" : " (the file ends early)");
+  for (std::size_t k = 0; k < at.packets; ++k) level.add(strips.packets[k]);
+  const std::string more =
+      at.more_vsplits == 0 ? "" : fmt::format(" and {} vsplits", grouped(at.more_vsplits));
+  io.err << fmt::format("{}: packet {} of {}{}, {} vertices, {} triangles, error {}{}\n",
+                        escaped(options.output.path), at.packets, strips.packets.size(), more,
+                        grouped(level.vertices() + at.more_vsplits),
+                        grouped(level.triangles() + at.more_triangles), four_digits(level.error()),
+                        strips.complete ? "" : " (the file ends early)");
 }
 
 ExitCode run(const Options& options, const Streams& io) {
@@ -55,12 +59,15 @@ ExitCode run(const Options& options, const Streams& io) {
   if (!strips) return report(io, strips.error(), options.input);
   const auto choice = options.level.choice(*strips);
   if (!choice) return report(io, choice.error(), options.input);
-  const std::size_t packets = packets_for(*strips, *choice);
+  SplitLevel level{.packets = packets_for(*strips, *choice)};
   Result<SavedFiles> saved;
   if (is_progressive(*target)) {
-    saved = save(cut(*strips, packets), options.output.path, *target);
+    saved = save(cut(*strips, level.packets), options.output.path, *target);
   } else {
-    const auto model = decode(*strips, packets);
+    // A number of triangles is met inside a packet, too.
+    const bool splits = choice->triangles >= 0 && strips->complete;
+    if (splits) level = split_level(*strips, static_cast<std::uint64_t>(choice->triangles));
+    const auto model = splits ? decode(*strips, level) : decode(*strips, level.packets);
     if (!model) return report(io, model.error(), options.input);
     saved = save(*model, options.output.path, *target,
                  {.transforms = options.placing.transforms(),
@@ -70,7 +77,7 @@ ExitCode run(const Options& options, const Streams& io) {
   if (!saved) return report_unsaved(io, saved.error(), options.output);
   note(io, options.output.path, saved->converted, "converted");
   note(io, options.output.path, saved->notes);
-  report_level(io, options, *strips, packets);
+  report_level(io, options, *strips, level);
   list_written(io, saved->files);
   return kOk;
 }

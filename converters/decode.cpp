@@ -1,6 +1,7 @@
 #include "converters/decode.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "codecs/weld/unweld.h"
 #include "converters/scene_level.h"
@@ -13,6 +14,14 @@ std::vector<Index> vsplits_after(const ProgressiveStrips& strips, std::size_t pa
   for (std::size_t k = 0; k < packets; ++k)
     done[strips.packets[k].mesh] += strips.packets[k].vsplits;
   return done;
+}
+
+std::uint64_t triangles_after(const ProgressiveMesh& mesh, Index vsplits) {
+  Level level(mesh);
+  level.refine(vsplits);
+  std::uint64_t out = 0;
+  for_each_triangle(level.view(), [&](Index, Index, Index, Index) { ++out; });
+  return out;
 }
 
 tl::unexpected<Error> failed_mesh(Error error, std::size_t mesh) {
@@ -85,19 +94,53 @@ Result<Mesh> decoded_mesh(const Level& level) {
   return restore_order(*decoded, mesh.order);
 }
 
-Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets) {
+SplitLevel split_level(const ProgressiveStrips& strips, std::uint64_t triangles) {
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
+  SplitLevel out;
+  out.packets =
+      packets_for(strips, {.triangles = static_cast<std::int64_t>(std::min(triangles, kMost))});
+  out.vsplits = vsplits_after(strips, out.packets);
+  if (out.packets == strips.packets.size()) return out;
+  SceneLevel level(strips);
+  for (std::size_t k = 0; k < out.packets; ++k) level.add(strips.packets[k]);
+  if (level.triangles() > triangles) return out;
+  const Packet& next = strips.packets[out.packets];
+  const ProgressiveMesh& mesh = strips.meshes[next.mesh];
+  Index& vsplits = out.vsplits[next.mesh];
+  const Index before = vsplits;
+  const std::uint64_t shown = triangles_after(mesh, before), room = triangles - level.triangles();
+  // Splits bring triangles, so that halving finds the last that fits.
+  Index exceeds = before + next.vsplits;
+  while (exceeds - vsplits > 1) {
+    const Index middle = vsplits + (exceeds - vsplits) / 2;
+    const std::uint64_t there = triangles_after(mesh, middle);
+    if (there > shown + room) {
+      exceeds = middle;
+      continue;
+    }
+    vsplits = middle;
+    out.more_triangles = there - std::min(there, shown);
+  }
+  out.more_vsplits = vsplits - before;
+  return out;
+}
+
+Result<Model> decode(const ProgressiveStrips& strips, const SplitLevel& at) {
   Model model;
   model.scene = strips.scene;
-  const std::vector<Index> vsplits =
-      vsplits_after(strips, std::min(packets, strips.packets.size()));
   for (std::size_t m = 0; m < strips.meshes.size(); ++m) {
     Level level(strips.meshes[m]);
-    level.refine(vsplits[m]);
+    level.refine(at.vsplits[m]);
     Result<Mesh> mesh = decoded_mesh(level);
     if (!mesh) return failed_mesh(mesh.error(), m);
     model.meshes.push_back(std::move(mesh).value());
   }
   return model;
+}
+
+Result<Model> decode(const ProgressiveStrips& strips, std::size_t packets) {
+  const std::size_t whole = std::min(packets, strips.packets.size());
+  return decode(strips, SplitLevel{.packets = whole, .vsplits = vsplits_after(strips, whole)});
 }
 
 Result<Model> decode(const ProgressiveStrips& strips) {

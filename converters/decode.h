@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "codecs/vsplit/level.h"
 #include "core/progressive_strips.h"
@@ -32,6 +34,21 @@ Result<Model> decode(const ProgressiveStrips& strips);
 /// The same for strips that are not needed any more: their parts are freed as soon as they are
 /// used, so that the peak is little more than the larger of strips and model.
 Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets);
+
+/// A level that may end inside a packet.
+struct SplitLevel {
+  std::size_t packets = 0;           ///< whole ones
+  std::vector<Index> vsplits;        ///< of each mesh
+  Index more_vsplits = 0;            ///< of them, those of the packet after
+  std::uint64_t more_triangles = 0;  ///< that these bring
+};
+
+/// The packets of packets_for(), and then as many vsplits of the next one as leave no more than so
+/// many triangles. Cost O(decoded size · log of a packet).
+SplitLevel split_level(const ProgressiveStrips& strips, std::uint64_t triangles);
+
+/// The model at that level, as decode() makes it.
+Result<Model> decode(const ProgressiveStrips& strips, const SplitLevel& level);
 
 /// One mesh at a level, as decode() gives it.
 Result<Mesh> decoded_mesh(const Level& level);
