@@ -24,6 +24,7 @@
 #include "core/equal_elements.h"
 #include "core/gather.h"
 #include "core/parallel.h"
+#include "formats/ply/ply.h"
 #include "formats/pstrip/payload/check.h"
 
 namespace pstrips::inline converters {
@@ -48,6 +49,9 @@ constexpr double kBaseShare = 0.05, kCompactBaseShare = 0.1;
 // Batches that leave less than this of a packet to the base. So a base gets larger by a tenth at
 // most, which is left free for it.
 constexpr double kLeastShareOfBatch = 0.5, kTargetOfBase = 0.9;
+
+// So many triangles of a base go to components that would vanish otherwise.
+constexpr std::uint64_t kMostOfComponents = 400;
 
 // Cells that lie around zero show as zero, others as their middle: off by a step on each axis.
 constexpr double kBlur = 1.7320508075688773;
@@ -158,7 +162,8 @@ class Encoder {
       : model_(model),
         options_(options),
         progress_(progress, model.meshes.size()),
-        reports_(reports) {}
+        reports_(reports),
+        keeps_order_(options.keep_order || has_rows_bound_to_order(model.scene)) {}
 
   Result<ProgressiveStrips> run(const std::vector<CollapseSequence>* given) {
     stripifier_ = find_stripifier(options_.stripifier);
@@ -238,6 +243,13 @@ class Encoder {
                                       static_cast<double>(std::min(share, kCompactBaseTriangles)));
   }
 
+  // A base that nobody asked for can be drawn: of a small mesh every component is there.
+  bool keeps_components(const Triangulation& triangles) const {
+    constexpr std::size_t kSmall = 20'000;
+    return !options_.base_share && !options_.base_triangles && !options_.base_error &&
+           triangles.face.size() <= kSmall;
+  }
+
   // The meshes side by side, the largest first so that none is left for the end; those of which not
   // as many as there are threads fit into the memory granted one after the other before. A mesh
   // that is more than one thread's share of the work may use all threads inside, others one.
@@ -310,6 +322,7 @@ class Encoder {
     CollapseSequence out = choose_collapses(
         mesh, triangles, options_,
         {.target_triangles = base_triangles(triangles.face.size()),
+         .component_triangles = keeps_components(triangles) ? kMostOfComponents : 0,
          .placement = placement(),
          .metric = options_.metric,
          .in_batches = chooses_batches(),
@@ -374,7 +387,7 @@ class Encoder {
         continue;
       }
       if (is_compact()) made.recording.mesh.grid = grid_of(mesh);
-      welded.complete(triangles, made.map, options_.keep_order, made.recording);
+      welded.complete(triangles, made.map, keeps_order_, made.recording);
       return Recorded{std::move(made.recording), std::move(bounds), std::move(made.batches)};
     }
   }
@@ -395,7 +408,7 @@ class Encoder {
       return fail(ErrorCode::over_limit, "more index-map entries than a mesh can have");
     if (!progress_.go_on("record", m, 0.85)) return interrupted();
     Recording recording = record(mesh, strips, sequence, options_.encoding);
-    welded.complete(triangles, strips, options_.keep_order, recording);
+    welded.complete(triangles, strips, keeps_order_, recording);
     return recording;
   }
 
@@ -457,6 +470,7 @@ class Encoder {
   std::vector<std::uint64_t> bytes_;  // that each mesh takes to encode
   const NamedStripifier* stripifier_ = nullptr;
   double share_ = 0;
+  const bool keeps_order_;
   PositionGrid grid_;  // of positions that are floats, in the compact profile
 };
 

@@ -47,7 +47,7 @@ struct EncodeOptions {
   /// alone. At most kMaxLevelCost.
   std::uint32_t level_cost = 1;
   /// Of each mesh's triangles that the base keeps. Not given: 0.05, in the compact profile 0.1 and
-  /// kCompactBaseTriangles at most.
+  /// kCompactBaseTriangles at most; of a small mesh each component keeps some.
   std::optional<double> base_share{};
   std::optional<std::uint64_t> base_triangles{};  ///< instead: of all meshes together
   std::optional<double> base_error{};  ///< instead: largest Packet::error of it, model units
@@ -61,7 +61,9 @@ struct EncodeOptions {
   /// Vertices at most so far apart, model units, are one for levels and strips, whatever the model
   /// says: 0 those at one place. Decoding parts them again. Not given: only what the model says.
   std::optional<double> weld = 0;
-  bool keep_order = false;  ///< vertex, wedge and face order of the source
+  /// Vertex, wedge and face order of the source; kept at any rate where the scene has rows that go
+  /// by it, see has_rows_bound_to_order().
+  bool keep_order = false;
   /// Vertices a packet adds, as a share of those before it, unless it is a batch …
   double packet_growth = 1.0 / 16;
   Index packet_min = 256;  ///< … and at least so many

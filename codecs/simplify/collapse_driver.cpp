@@ -11,6 +11,14 @@ CollapseState::CollapseState(const SimplifyInput& in, const SimplifyOptions& opt
       complex(in.positions, in.wedge_vertex, in.triangles),
       wedges(wedge_table(in, complex.diagonal)) {
   out.triangles_left = input.triangles.size() / 3;
+  target_triangles = options.target_triangles;
+  if (options.component_triangles > 0) {
+    guard.emplace(complex);
+    if (guard->least_triangles() <= options.component_triangles)
+      target_triangles = std::max(target_triangles, guard->least_triangles());
+    else
+      guard.reset();
+  }
   if (options.max_error < 0) return;
   const double limit = options.max_error * complex.scale[0] * complex.scale[1];
   max_squared_error = static_cast<float>(std::min(limit * limit, 1e30));
@@ -18,6 +26,7 @@ CollapseState::CollapseState(const SimplifyInput& in, const SimplifyOptions& opt
 
 void CollapseState::move_corners(const Star& star, Index kept) {
   moved_corners.clear();
+  const std::uint64_t before = out.triangles_left;
   for (const IncidentCorner& incident : star.corners) {
     if (incident.next == kept || incident.previous == kept) {
       complex.kill(incident.corner);
@@ -27,6 +36,7 @@ void CollapseState::move_corners(const Star& star, Index kept) {
       moved_corners.push_back(incident.corner);
     }
   }
+  if (guard) guard->lose(star.vertex, static_cast<Index>(before - out.triangles_left));
 }
 
 void CollapseState::move_wedges(const Star& star, Index kept, Vec3f offset, Quadric& quadric) {

@@ -10,6 +10,7 @@
 
 #include "codecs/simplify/batch_gate.h"
 #include "codecs/simplify/complex.h"
+#include "codecs/simplify/component_guard.h"
 #include "codecs/simplify/constraints.h"
 #include "codecs/simplify/initial_quadrics.h"
 #include "codecs/simplify/simplify.h"
@@ -35,7 +36,7 @@ struct CollapseState {
   CollapseState(const CollapseState&) = delete;
   CollapseState& operator=(const CollapseState&) = delete;
 
-  bool is_done() const { return out.triangles_left <= options.target_triangles; }
+  bool is_done() const { return out.triangles_left <= target_triangles; }
   bool is_limited() const { return max_squared_error < kInfiniteCost; }
 
   /// Removes the triangles between the star's vertex and `kept` and gives the corners of the others
@@ -59,6 +60,8 @@ struct CollapseState {
   QuadricBuilder builder{complex, input, wedges ? &*wedges : nullptr};
   std::optional<VertexBuckets> queue;
   std::optional<BatchGate> batches;
+  std::optional<ComponentGuard> guard;
+  std::uint64_t target_triangles;
   float max_squared_error = kInfiniteCost;  ///< in the complex's units
   std::vector<Index> moved_corners;
   float last_error = 0;
@@ -90,6 +93,12 @@ concept CollapsePricer = requires(P& pricer, Index vertex, const StarEdge& edge,
   if (const Index v = queue.ahead(3); v != kNone) complex.prefetch_neighbours(v);
 }
 
+/// Leaves out the edges of a star that its component cannot do without.
+inline void leave_out_needed(const ComponentGuard& guard, const Star& star) {
+  for (StarEdge& edge : star.edges)
+    if (!guard.can_lose(star.vertex, edge.triangles)) edge.cost = kInfiniteCost;
+}
+
 /// Leaves out the edges of a star whose ends the batch has taken; false if there are none.
 template <CollapsePricer Pricer>
 bool leave_out_taken(BatchGate& batches, Pricer& pricer, const Star& star) {
@@ -112,6 +121,7 @@ const StarEdge* choose_edge(CollapseState& state, Pricer& pricer, Index vertex) 
   constexpr int kMaxConstraintChecks = 16;  // of one large ring in a row
   const Star& star = pricer.price(vertex);
   const bool large = pricer.is_large();
+  if (state.guard) leave_out_needed(*state.guard, star);
   const bool waits = state.batches && leave_out_taken(*state.batches, pricer, star);
   for (int checks = 0;; ++checks) {
     StarEdge* const best = pricer.cheapest();
@@ -163,7 +173,7 @@ template <CollapsePricer Pricer>
 void collapse_until_stop(CollapseState& state, Pricer& pricer, const Progress& progress) {
   constexpr std::size_t kProgressInterval = 4096;
   CollapseSequence& out = state.out;
-  const std::uint64_t start = out.triangles_left, target = state.options.target_triangles;
+  const std::uint64_t start = out.triangles_left, target = state.target_triangles;
   out.stop = SimplifyStop::exhausted;
   for (Index vertex; (vertex = next_vertex(state)) != kNone;) {
     look_ahead(state.complex, *state.queue);

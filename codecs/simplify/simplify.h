@@ -37,6 +37,9 @@ struct SimplifyOptions {
   std::uint64_t target_triangles = 0;  ///< stop at this many triangles or fewer
   /// Take no collapse whose error (model units) is larger; negative: no limit.
   double max_error = -1;
+  /// Components do not vanish: each keeps four triangles, or all if it has fewer, as long as that
+  /// is no more than so many in all; the target gives way. 0: they may.
+  std::uint64_t component_triangles = 0;
   Placement placement = Placement::subset;  ///< optimal: the kept vertex moves where it fits best
   Metric metric = Metric::memoryless;  ///< a fifth to a third nearer than qem, at the same cost
   /// With subset placement: the sequence falls into batches of which no two collapses share a
@@ -53,7 +56,8 @@ struct SimplifyOptions {
 /// an edge, the link condition keeps the topology, no face turns by more than about 80° or
 /// degenerates, and none turns over or degenerates in the texture. A constraint does not forbid:
 /// the refused collapse costs its whole displacement as well, so that components and holes smaller
-/// than the error of the rest vanish and every mesh can be reduced to nothing. Wedges that would be
+/// than the error of the rest vanish and every mesh can be reduced to nothing, unless
+/// `component_triangles` holds them. Wedges that would be
 /// reassigned, merged attributes and seams are priced too, and with subset placement how far the
 /// removed vertex stands from the faces that replace its own: planes do not see the tip of a spike.
 ///
