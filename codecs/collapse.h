@@ -43,17 +43,20 @@ struct BatchShares {
 };
 
 /// Large batches save bits, small ones keep the order: what an early batch takes too soon would go
-/// a little later anyway, what a late one takes spoils every level below.
+/// a little later anyway, what a late one takes spoils every level below. When few vertices are
+/// left, a packet costs as much as eight of them, so the last batches are larger again.
 struct BatchSchedule {
-  BatchShares early = {0.35, 0.8}, late = {0.2, 0.5};
+  BatchShares early = {0.35, 0.8}, late = {0.2, 0.5}, last = {0.3, 0.7};
   double early_until = 0.3;  ///< this share of the vertices is left
+  Index late_until = 1000;   ///< so many are left
 
   const BatchShares& at(Index left, Index all) const {
-    return static_cast<double>(left) > early_until * static_cast<double>(all) ? early : late;
+    if (static_cast<double>(left) > early_until * static_cast<double>(all)) return early;
+    return left > late_until ? late : last;
   }
   static BatchSchedule of(CollapseOrder order) {
     if (order == CollapseOrder::error) return {};
-    return {{0.4, 0.9}, {0.25, 0.6}, 0.45};
+    return {.early = {0.4, 0.9}, .late = {0.25, 0.6}, .early_until = 0.45};
   }
 };
 

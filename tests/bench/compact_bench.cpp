@@ -187,7 +187,7 @@ void measure(const char* path, const Mesh& source, unsigned bits) {
                       by_bits = BatchSchedule::of(CollapseOrder::bits);
   constexpr BatchShares kFew = {0.05, 1};
   const Way kWays[] = {
-      {"small batches", CollapseOrder::error, false, {.schedule = {kFew, kFew}, .window = 2}},
+      {"small batches", CollapseOrder::error, false, {.schedule = {kFew, kFew, kFew}, .window = 2}},
       {"error", CollapseOrder::error, true, {.schedule = by_error}},
       {"bits", CollapseOrder::bits, true, {.schedule = by_bits}},
       {"middle",
