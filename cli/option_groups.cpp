@@ -279,7 +279,10 @@ void EncodeOptionsGroup::add_profile(CLI::App& app) {
                                 "Compact: coarsen by error alone, or while hardly anybody sees "
                                 "which vertex goes by bits as well"));
   takes_one_of(by->capture_default_str(), {"error", "bits"});
-  of_compact = {bits, exact, by};
+  auto* how = add(app.add_option("--effort", effort,
+                                 "Compact: quick to decode, or smaller and several times slower"));
+  takes_one_of(how->capture_default_str(), {"fast", "small"});
+  of_compact = {bits, exact, by, how};
 }
 
 std::string EncodeOptionsGroup::first_given() const {
@@ -349,6 +352,7 @@ Result<EncodeOptions> EncodeOptionsGroup::get() const {
   const auto distance = parse_weld(weld);
   if (!distance) return tl::unexpected(distance.error());
   out.weld = *distance;
+  out.effort = effort == "small" ? Effort::small : Effort::fast;
   out.metric = metric == "memoryless" ? Metric::memoryless : Metric::qem;
   for (const std::string& text : attribute_weights) {
     auto weight = parse_weight(text);

@@ -86,8 +86,9 @@ struct StripOptionsGroup {
   void note_time_limit(const Streams& io) const;
 };
 
-/// The options above and --profile, --position-bits, --lossless, --order, --strips, --stripifier,
-/// --level-cost, --base, --base-error, --placement, --metric, --attribute-weight, --weld, --keep-order
+/// The options above and --profile, --position-bits, --lossless, --order, --effort, --strips,
+/// --stripifier, --level-cost, --base, --base-error, --placement, --metric, --attribute-weight,
+/// --weld, --keep-order
 struct EncodeOptionsGroup {
   EncodeOptions options;
   std::string placement = "subset";
@@ -99,7 +100,7 @@ struct EncodeOptionsGroup {
   std::string weld = "exact";  ///< or none, or a distance
   std::optional<std::string> profile;
   bool lossless = false;
-  std::string order = "error";
+  std::string order = "error", effort = "fast";
   StripOptionsGroup stripping;
   std::vector<const CLI::Option*> members;  ///< without those of `stripping`
   /// Of those, what only one profile has a use for.

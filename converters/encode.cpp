@@ -387,6 +387,7 @@ class Encoder {
         continue;
       }
       if (is_compact()) made.recording.mesh.grid = grid_of(mesh);
+      if (is_compact()) made.recording.mesh.effort = options_.effort;
       welded.complete(triangles, made.map, keeps_order_, made.recording);
       return Recorded{std::move(made.recording), std::move(bounds), std::move(made.batches)};
     }

@@ -37,6 +37,8 @@ struct EncodeOptions {
   unsigned position_bits = 0;
   /// With the compact profile: bits makes files smaller and levels a little worse.
   CollapseOrder order = CollapseOrder::error;
+  /// With the compact profile: small takes fewer bits and decodes several times as slowly.
+  Effort effort = Effort::fast;
   /// What follows up to `level_cost` matters only where maps are of strips.
   MapEncoding encoding = MapEncoding::offset;
   std::string stripifier = "best";  ///< a name of stripifiers()

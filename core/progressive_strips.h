@@ -25,6 +25,12 @@ enum class Placement : std::uint8_t {
   optimal = 1,  ///< each vsplit moves its parent too [Skabek11 §3.3]
 };
 
+/// How much a decoder of the compact profile works for fewer bits. [spec/compact.md §6]
+enum class Effort : std::uint8_t {
+  fast = 0,
+  small = 1,  ///< several times as slow
+};
+
 /// One refinement step. The new vertex takes the next free index, as do its new wedges.
 /// [Kim04 §3.2 eq. 2; spec/vsplit.md]
 struct Vsplit {
@@ -110,7 +116,8 @@ struct ProgressiveMesh {
   /// there are of each at full resolution, in any order.
   std::vector<Index> group_entries;
 
-  PositionGrid grid;  ///< of the compact profile
+  Effort effort = Effort::fast;  ///< has a meaning in the compact profile only
+  PositionGrid grid;             ///< of the compact profile
   Attribute position;
   std::vector<Attribute> wedge_attributes;
   std::vector<Attribute> face_attribute_formats;  ///< formats only; data is in `faces`

@@ -48,6 +48,11 @@ class SpecTablesTest(unittest.TestCase):
         rows = [numbers(line) for line in blocks_of_page()[4].splitlines()]
         self.assertEqual(rows, [numbers(match.group(1)), numbers(match.group(2))])
 
+    def test_knots(self):
+        code = (CODE / "mixed_bit.h").read_text()
+        match = re.search(r"kKnots = \{(.*?)\};", code, re.S)
+        self.assertEqual(numbers(blocks_of_page()[5]), numbers(match.group(1)))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -7,8 +7,9 @@ import model
 from cells import BOUND
 from container import Payload
 from compact_wedges import Attributes, SplitWedges, WedgeLists, WedgeModels
+from mixed import MixedModels
 from geometry import AXES, Chords, Steps, Surroundings, place_split
-from model import OPTIMAL, require
+from model import OPTIMAL, SMALL, require
 from run import BitModel, Models, NumberModel, Run, SymbolModel, length, read_varint
 from stars import ABSENT, Stars
 
@@ -54,6 +55,7 @@ class MeshDecoder:
                                  for wedge in self.state.map[first : first + 3]])
         self.order = list(range(mesh.base_vertices))
         self.turns = Turns()
+        self.mixed = MixedModels(mesh.placement) if mesh.effort == SMALL else None
         self.visited = 0  # by all batches
         self.splits = Models(BitModel)
         self.chords = Chords(mesh.placement)
@@ -87,6 +89,8 @@ class MeshDecoder:
     def read_batch(self, run):
         order, self.order = self.order, []
         self.turns.start()
+        if self.mixed:
+            self.mixed.start_batch()
         in_rings = {}  # how many splits of this batch had a vertex in their ring
         self.visited += len(order)
         if self.visited > 256 * self.mesh.vertices + (1 << 20):
@@ -95,7 +99,11 @@ class MeshDecoder:
             self.order.append(vertex)
             context = (self.turns.of(vertex) == RECENT, min(len(self.stars.star[vertex]), 15),
                        min(in_rings.get(vertex, 0), 7))
-            if self.splits[context].read(run):
+            if self.mixed:
+                splits = self.mixed.read_flag(run, vertex, self, in_rings)
+            else:
+                splits = self.splits[context].read(run)
+            if splits:
                 new = len(self.state.position)
                 require(new < self.mesh.vertices, "K-006")
                 ring = self.read_split(run, vertex)
@@ -104,16 +112,18 @@ class MeshDecoder:
                         in_rings[place.vertex] = in_rings.get(place.vertex, 0) + 1
                 self.order.append(new)
                 self.turns.split |= {vertex, new}
+                if self.mixed:
+                    self.mixed.follow(vertex, new)
             self.turns.passed.add(vertex)
 
     def read_split(self, run, vertex):
         """Reads and applies a split; returns the ring before it, or None."""
         ring = self.stars.ring(vertex)
         around = Surroundings(ring, vertex, self.state.position) if ring else None
-        chord = self.chords.read(run, around, self.stars, self.turns)
+        chord = (self.mixed or self.chords).read_chord(run, around, self.stars, self.turns)
         if chord:
             split = self.stars.split_chord(vertex, ring.places, *chord)
-            split.step = self.steps.read(run, around, vertex, split.q, *chord)
+            split.step = self.steps.read(run, around, vertex, split.q, *chord, self.mixed)
         else:
             split = self.read_long_form(run, vertex)
         placement = self.mesh.placement

@@ -202,11 +202,12 @@ def read_group(payload):
     return model.Group(name, material, kind, payload.u32())
 
 
-def read_grid(payload):
+def read_compact_fields(payload, mesh):
     """container.md 5.2, the last fields of MESH in the compact profile."""
     step, exact = payload.number("f"), payload.one_of(2)
-    payload.zeros(3)
-    return model.Grid(step, exact, [payload.number("q") for _ in range(3)])
+    mesh.effort = payload.one_of(2)
+    payload.zeros(2)
+    mesh.grid = model.Grid(step, exact, [payload.number("q") for _ in range(3)])
 
 
 def read_mesh(chunk, profile, materials):
@@ -229,7 +230,7 @@ def read_mesh(chunk, profile, materials):
                  "base_vertices", "base_wedges"):
         setattr(mesh, name, payload.u32())
     if profile == 1:
-        mesh.grid = read_grid(payload)
+        read_compact_fields(payload, mesh)
     payload.end()
     model.check_counts(mesh, materials)
     return mesh

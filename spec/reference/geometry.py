@@ -84,7 +84,7 @@ class Chords:
         self.span = Models(SymbolModel)
         self.weights = tables.chord_weights(placement)
 
-    def read(self, run, around, stars, turns):
+    def read_chord(self, run, around, stars, turns):
         """The places (i, j) of the chord; None: long form. Without a ring around is None."""
         kind, s = NO_RING, 0
         if around is not None:
@@ -175,6 +175,20 @@ class Spread:
         return max(half_steps(square) + 2 * r - half_steps(self.n**2), 0)
 
 
+def predictions(placement, around, i, j):
+    """t and g."""
+    near, far = around.side(i, j), around.side(j, i)
+    ends = [place for place in (i, j) if around.places[place].vertex is not ABSENT]
+    sums = [(added(around.arms[place] for place in ends), len(ends)),
+            (near.sum, near.count), (far.sum, far.count)]
+    means = [[component * reciprocal(c) >> 12 for component in total] for total, c in sums]
+    places = (j - i) % around.s
+    weights = tables.step_weights(placement, places, around.s - places, around.ring.open)
+    t = [sum(weights[m] * means[m][k] for m in range(3)) for k in AXES]
+    g = [sum(weights[3 + m] * means[m][k] for m in range(3)) >> 12 for k in AXES]
+    return t, g
+
+
 class Steps:
     """The step from the other vertex to the new one (compact.md 6.3)."""
 
@@ -183,17 +197,26 @@ class Steps:
         self.models = [ScaledNumberModel() for _ in range(3)]
         self.height_errors = {}  # of vertices; 0 where there is none
 
-    def read(self, run, around, vertex, new, i, j):
-        t, g = self.predictions(around, i, j)
+    def read(self, run, around, vertex, new, i, j, mixed=None):
+        """mixed: the models of the effort small."""
+        bent = self.error_around(around)
+        reader = mixed.step_reader(around, vertex, i, j, bent) if mixed else None
+
+        def off(nth, axis, guess, size):
+            if reader:
+                return reader.read_along(run, nth, axis, guess, size)
+            return self.models[nth].read(run, size)
+
+        t, g = predictions(self.placement, around, i, j)
         plain = [(t[k] + (1 << 15)) >> 16 for k in AXES]
         normal, up = self.normal(around, i, j)
         after, before = (up + 1) % 3, (up + 2) % 3
         step = [0, 0, 0]
         spread = Spread(around, i, j, after, before)
-        off = self.models[0].read(run, spread.first)
-        step[after] = plain[after] + off
-        step[before] = (plain[before] + ((spread.slope * off + 128) >> 8)
-                        + self.models[1].read(run, spread.second))
+        first = off(0, after, plain[after], spread.first)
+        step[after] = plain[after] + first
+        guess = plain[before] + ((spread.slope * first + 128) >> 8)
+        step[before] = guess + off(1, before, guess, spread.second)
         h = plain[up]
         if normal[up] != 0:
             y = dot(normal, g) - 16 * (normal[after] * step[after] + normal[before] * step[before])
@@ -201,7 +224,8 @@ class Steps:
             h = toward_zero(y + half if y >= 0 else y - half, 16 * normal[up])
             if abs(h) >= BOUND:
                 h = 0
-        d = self.models[2].read(run, (around.mean + self.error_around(around)) // 2)
+        d = (reader.read_above(run) if reader
+             else self.models[2].read(run, (around.mean + bent) // 2))
         step[up] = h + d
         error = (self.height_errors.get(vertex, 0) + half_steps(4 * d * d) + 1) // 2
         self.height_errors[vertex] = self.height_errors[new] = error
@@ -210,19 +234,6 @@ class Steps:
     def start_with_error_of(self, vertex, new):
         """In the long form the height error of the vertex stays."""
         self.height_errors[new] = self.height_errors.get(vertex, 0)
-
-    def predictions(self, around, i, j):
-        """t and g."""
-        near, far = around.side(i, j), around.side(j, i)
-        ends = [place for place in (i, j) if around.places[place].vertex is not ABSENT]
-        sums = [(added(around.arms[place] for place in ends), len(ends)),
-                (near.sum, near.count), (far.sum, far.count)]
-        means = [[component * reciprocal(c) >> 12 for component in total] for total, c in sums]
-        places = (j - i) % around.s
-        weights = tables.step_weights(self.placement, places, around.s - places, around.ring.open)
-        t = [sum(weights[m] * means[m][k] for m in range(3)) for k in AXES]
-        g = [sum(weights[3 + m] * means[m][k] for m in range(3)) >> 12 for k in AXES]
-        return t, g
 
     def normal(self, around, i, j):
         """The normal, turned and reduced, and the axis up."""

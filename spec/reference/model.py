@@ -12,6 +12,7 @@ SYMBOLS = {0xFFFFFFFB: -2, 0xFFFFFFFC: -1, 0xFFFFFFFD: 1, 0xFFFFFFFE: 2}  # stri
 
 NAIVE, OFFSET, TRIANGLES = 0, 1, 2  # encoding of MESH
 OPTIMAL = 1  # placement of MESH
+SMALL = 1  # effort of MESH
 POLYGONS = 0  # kind of a group
 
 COMPONENT_BYTES = [1, 1, 2, 2, 4, 4, 4, 8]  # by the type of a format
@@ -73,6 +74,7 @@ class Mesh:
     name: bytes
     encoding: int = NAIVE
     placement: int = 0
+    effort: int = 0
     single_wedges: int = 0
     position: Format = None
     wedge_attributes: list = None

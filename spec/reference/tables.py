@@ -16,6 +16,11 @@ def blocks():
             for block in re.findall(r"```\n(.*?)```", text, re.DOTALL)]
 
 
+def knots():
+    """Probabilities for logarithms of odds in steps of a half."""
+    return [number for row in blocks()[5] for number in row]
+
+
 def chord_weights(placement):
     """For each kind a number for each class, times 64."""
     return [[64 * weight for weight in row] for row in blocks()[placement]]

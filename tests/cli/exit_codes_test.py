@@ -57,7 +57,8 @@ CASES = [
     (["convert", "good.pstrip", "out.pstripx", "--strips", "naive"], 1, "", "--strips does nothing to progressive"),
     (["convert", "good.pstrip", "out.pstrip", "--profile", "plain"], 1, "", "--profile does nothing to progressive"),
     *((["convert", "tube.obj", "out.pstrip", *option], 1, "", f"{option[0]} does nothing for the plain profile")
-      for option in (("--position-bits", "12"), ("--lossless",), ("--order", "bits"))),
+      for option in (("--position-bits", "12"), ("--lossless",), ("--order", "bits"),
+                     ("--effort", "small"))),
     *((["convert", "tube.obj", "out.pstrip", "--profile", "compact", *option], 1, "",
        f"{option[0]} does nothing for the compact profile")
       for option in (("--goal", "strips"), ("--strips", "naive"), ("--stripifier", "best"), ("--level-cost", "0"))),

@@ -111,6 +111,18 @@ TEST(Compact, OrderByBitsTakesFewer) {
 }
 
 // What bounds claim, by sampling: the surfaces are no farther apart.
+// The effort does as well, and both decode to the same.
+TEST(Compact, SmallTakesFewer) {
+  const Model model = model_of({test::torus(120, 60)});
+  const auto strips_of = [&](Effort effort) {
+    return encoded(model, {.profile = Profile::compact, .position_bits = 12, .effort = effort});
+  };
+  const ProgressiveStrips fast = strips_of(Effort::fast), small = strips_of(Effort::small);
+  EXPECT_EQ(decode(fast)->meshes, decode(small)->meshes);
+  const auto bytes = [](const ProgressiveStrips& strips) { return write_binary(strips)->size(); };
+  EXPECT_LT(bytes(small), bytes(fast) * 99 / 100);
+}
+
 TEST(Compact, BoundsHoldAtTheEndOfBatches) {
   const Model model = model_of({test::torus(60, 40)});
   for (const Placement placement : kPlacements)

@@ -23,6 +23,8 @@ WAYS = {
     "plain": ("--profile", "plain"),
     "bit for bit": ("--profile", "compact", "--base", "8"),
     "moved vertices": ("--profile", "compact", "--base", "8", "--placement", "optimal"),
+    "small, moved vertices": ("--profile", "compact", "--base", "8", "--effort", "small",
+                              "--placement", "optimal"),
     "grid": ("--profile", "compact", "--base", "8", "--position-bits", "12"),
 }
 

@@ -15,10 +15,10 @@ std::vector<CorpusFile> valid_corpus() {
     ProgressiveStrips strips;
   };
   const Sample samples[] = {
-      {"roof", roof()},       {"symbols", symbols()},      {"faces", numbered_faces()},
-      {"seam", seam()},       {"scene", scene()},          {"growing", growing()},
-      {"compact", compact()}, {"batches", batches()},      {"welded", welded()},
-      {"empty", empty()},     {"empty_mesh", empty_mesh()}};
+      {"roof", roof()},       {"symbols", symbols()}, {"faces", numbered_faces()},
+      {"seam", seam()},       {"scene", scene()},     {"growing", growing()},
+      {"compact", compact()}, {"batches", batches()}, {"small", small()},
+      {"welded", welded()},   {"empty", empty()},     {"empty_mesh", empty_mesh()}};
   std::vector<CorpusFile> out;
   for (const Sample& sample : samples) {
     out.push_back({std::string(sample.name) + ".pstrip", written(sample.strips)});

@@ -134,7 +134,7 @@ TEST(Mutations, OfMapsOfTrianglesNeverHarm) {
 
 TEST(Mutations, OfBatchesNeverHarm) {
   Damage damage(5);
-  for (const ProgressiveStrips& strips : {test::batches(), test::compact()}) {
+  for (const ProgressiveStrips& strips : {test::batches(), test::small(), test::compact()}) {
     const Bytes file = write_binary(strips).value();
     for (int i = 0; i < 4000; ++i) {
       SCOPED_TRACE(i);

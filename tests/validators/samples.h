@@ -37,6 +37,9 @@ ProgressiveStrips compact();
 /// the last bits.
 ProgressiveStrips batches();
 
+/// The same with the effort `small`.
+ProgressiveStrips small();
+
 /// Two triangles whose corners are six wedges of five vertices, welded into four.
 ProgressiveStrips welded();
 

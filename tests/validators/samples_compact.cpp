@@ -94,4 +94,10 @@ ProgressiveStrips batches() {
   return strips;
 }
 
+ProgressiveStrips small() {
+  ProgressiveStrips strips = batches();
+  strips.meshes[0].effort = Effort::small;
+  return strips;
+}
+
 }  // namespace pstrips::test

@@ -95,15 +95,16 @@ void format_fields(Io& io, A& a) {
   io.zeros(1);
 }
 
-template <class Io, class G>
-void grid_fields(Io& io, G& grid) {
-  io.number(grid.step);
-  io.choice(grid.exact, 2);
-  io.zeros(3);
-  for (auto& x : grid.origin) io.number(x);
+/// What the plain profile has no use for.
+template <class Io, class M>
+void compact_fields(Io& io, M& mesh) {
+  io.number(mesh.grid.step);
+  io.choice(mesh.grid.exact, 2);
+  io.choice(mesh.effort, 2);
+  io.zeros(2);
+  for (auto& x : mesh.grid.origin) io.number(x);
 }
 
-/// The plain profile has no use for a grid.
 template <class Io, class M, class C>
 void mesh_fields(Io& io, M& mesh, C& counts, Profile profile) {
   io.string(mesh.name);
@@ -132,7 +133,7 @@ void mesh_fields(Io& io, M& mesh, C& counts, Profile profile) {
   io.number(counts.faces);
   io.number(counts.base_vertices);
   io.number(counts.base_wedges);
-  if (profile != Profile::plain) grid_fields(io, mesh.grid);
+  if (profile != Profile::plain) compact_fields(io, mesh);
 }
 
 // ---- sCNE, mTRL, iMGE, fRGN ----------------------------------------------------------------

@@ -85,7 +85,7 @@ void group_fields(Io& io, M& mesh, G& group) {
   io.index("map_entries", mesh.group_entries[static_cast<std::size_t>(&group - &mesh.groups[0])]);
 }
 
-/// The plain profile has no use for a grid.
+/// The plain profile has no use for a grid, nor for an effort.
 template <class Io, class M>
 void mesh_fields(Io& io, M& mesh, Profile profile) {
   io.string("name", mesh.name);
@@ -102,6 +102,7 @@ void mesh_fields(Io& io, M& mesh, Profile profile) {
     io.real("grid_step", mesh.grid.step);
     io.integers("grid_origin", mesh.grid.origin);
     io.flag("grid_exact", mesh.grid.exact);
+    io.word("effort", mesh.effort, kEffortNames, Fault::value_undefined);
   }
   io.content();
   const auto format = [](auto& child, auto& attribute) { format_fields(child, attribute); };

@@ -17,6 +17,7 @@ inline constexpr Index kXmlVersionMinor = 2;
 /// In the order of the enumeration that each belongs to.
 inline constexpr std::array<std::string_view, 3> kEncodingNames = {"naive", "offset", "triangles"};
 inline constexpr std::array<std::string_view, 2> kPlacementNames = {"subset", "optimal"};
+inline constexpr std::array<std::string_view, 2> kEffortNames = {"fast", "small"};
 inline constexpr std::array<std::string_view, 3> kFaceKindNames = {"polygons", "lines", "points"};
 inline constexpr std::array<std::string_view, 8> kTypeNames = {"i8",  "u8",  "i16", "u16",
                                                                "i32", "u32", "f32", "f64"};

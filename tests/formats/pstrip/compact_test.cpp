@@ -142,6 +142,12 @@ void expect_round_trip(const ProgressiveStrips& strips) {
 }
 
 constexpr Placement kPlacements[] = {Placement::subset, Placement::optimal};
+constexpr Effort kEfforts[] = {Effort::fast, Effort::small};
+
+ProgressiveStrips with_effort(ProgressiveStrips strips, Effort effort) {
+  strips.meshes[0].effort = effort;
+  return strips;
+}
 
 TEST(Compact, OrderlyMeshesComeBack) {
   for (const Mesh& mesh : {test::grid(12), test::torus(16, 9), test::cube(false), test::cube(true),
@@ -150,7 +156,8 @@ TEST(Compact, OrderlyMeshesComeBack) {
     for (const Placement placement : kPlacements)
       for (std::uint32_t seed = 0; seed < 5; ++seed) {
         SCOPED_TRACE(seed);
-        expect_round_trip(strips_of(mesh, seed, placement));
+        for (const Effort effort : kEfforts)
+          expect_round_trip(with_effort(strips_of(mesh, seed, placement), effort));
         if (HasFatalFailure()) return;
       }
 }
@@ -161,7 +168,8 @@ TEST(Compact, AnyComplexComesBack) {
                              test::polygon_soup(seed, 4 + seed % 30, seed / 2)})
       for (const Placement placement : kPlacements) {
         SCOPED_TRACE(seed);
-        expect_round_trip(strips_of(mesh, seed, placement));
+        for (const Effort effort : kEfforts)
+          expect_round_trip(with_effort(strips_of(mesh, seed, placement), effort));
         if (HasFatalFailure()) return;
       }
 }
@@ -237,8 +245,9 @@ TEST(Compact, DamagedFilesAreRefusedOrGiveAMesh) {
   std::size_t refused = 0, runs = 0;
   for (const Mesh& mesh :
        {test::torus(16, 9), test::cube_sphere(6, 2), test::random_soup(3, 30, 60)})
-    for (const Placement placement : kPlacements) {
-      const Bytes file = write_binary(strips_of(mesh, 4, placement)).value();
+    for (int way = 0; way < 4; ++way) {
+      const ProgressiveStrips strips = strips_of(mesh, 4, kPlacements[way % 2]);
+      const Bytes file = write_binary(with_effort(strips, kEfforts[way / 2])).value();
       for (int run = 0; run < 1500; ++run, ++runs) {
         const auto back = read_binary(mutated(file, random), {}, ReadMode::prefix);
         refused += back ? 0 : 1;

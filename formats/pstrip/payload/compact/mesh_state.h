@@ -45,7 +45,7 @@ struct WedgeModels {
 /// A mesh between two packets, as both sides of a file know it.
 struct MeshState {
   MeshState(const ProgressiveMesh& mesh, MeshCells how)
-      : splits(mesh.placement),
+      : splits(mesh.placement, mesh.effort),
         cells(std::move(how)),
         single_wedges(mesh.single_wedges),
         groups(static_cast<Index>(mesh.groups.size())),

@@ -105,7 +105,7 @@ class Shares {
   static constexpr std::uint32_t kLargestWeight = kShares;
 
   Shares() = default;
-  /// weights  1 to kMost of them, up to kLargestWeight each, one of them that large
+  /// weights  1 to kMost of them; their sum is at least kLargestWeight and below 2^31
   explicit Shares(std::span<const std::uint32_t> weights);
 
   unsigned count() const { return count_; }
@@ -148,6 +148,11 @@ class RansWriter {
     else
       put(0, model.zeros());
     model.learn(value);
+    return value;
+  }
+  /// zeros  of kShares, neither none nor all
+  bool bit(std::uint32_t zeros, bool value) {
+    put(value ? zeros : 0, value ? kShares - zeros : zeros);
     return value;
   }
   /// Precondition: value < SymbolModel::kSymbols.
@@ -241,6 +246,11 @@ class TallyingReader : public RansState {
     else
       take(0, model.zeros());
     model.learn(one);
+    return one;
+  }
+  bool bit(std::uint32_t zeros, bool = false) {
+    const bool one = share() >= zeros;
+    take(one ? zeros : 0, one ? kShares - zeros : zeros);
     return one;
   }
   unsigned symbol(SymbolModel& model, unsigned = 0) {

@@ -56,6 +56,8 @@ class RingGeometry {
     }
     return out;
   }
+  /// All neighbours; lengths aside.
+  Run all() const { return {sum_, 0, size_ - (open_ ? 1 : 0)}; }
   /// Takes a run one place on: `first` leaves it and `next` joins.
   void move_on(Run& run, unsigned first, unsigned next) const {
     run.sum = run.sum - arm(first) + arm(next);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/fault_list.h"
+#include "formats/pstrip/payload/compact/mixed_split.h"
 #include "formats/pstrip/payload/compact/split_code.h"
 
 // For formats/pstrip/payload/compact: a batch, the splits of one packet. [split_code.h]
@@ -105,24 +106,24 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
   order.reserve(std::min(state.order.size() * 2, limits.vertices));
   std::ranges::fill(state.split_around, std::uint8_t{0});
   for (Turn& turn : state.turn) turn = turn == Turn::split ? Turn::waits_recent : Turn::waits;
+  if (state.mixed) state.mixed->start_batch();
   VertexRing ring;
   GridSplit split;
   for (const Index vertex : state.order) {
     order.push_back(vertex);
     const GridSplit* const wanted = split_of(vertex);
-    BitModel& splits =
-        state.models
-            .splits[state.turn[vertex] == Turn::waits_recent ? 1 : 0]
-                   [std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
-                   [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)];
-    state.turn[vertex] = Turn::passed;
     coder.part(Part::parents);
-    if (!coder.bit(splits, wanted != nullptr)) continue;
+    const bool splits = code_flag(coder, state, vertex, wanted != nullptr);
+    state.turn[vertex] = Turn::passed;
+    if (!splits) continue;
     if (state.mesh.vertex_count() >= limits.vertices) return broken(Fault::compact_counts);
     if (wanted != nullptr) split = *wanted;
     state.mesh.ring_of(vertex, ring);
     const RingGeometry geometry(state, vertex, ring);
-    code_chord(coder, state, ring, geometry, split);
+    if (state.mixed)
+      code_mixed_chord(coder, state, ring, geometry, split);
+    else
+      code_chord(coder, state, ring, geometry, split);
     if (split.chord) {
       code_step(coder, state, vertex, ring, geometry, split);
       if (state.mesh.face_count() + std::size_t{2} > limits.faces + (ring.open ? 1u : 0u))
@@ -134,6 +135,7 @@ Result<void> code_batch(Coder& coder, SplitState& state, const BatchLimits& limi
     if (!added) return tl::unexpected<Error>(added.error());
     state.turn[vertex] = state.turn[*added] = Turn::split;
     state.normal_error[*added] = state.normal_error[vertex];
+    if (state.mixed) state.mixed->follow(vertex, *added);
     for (unsigned i = 0; i < ring.size; ++i)
       if (ring.vertex[i] != kNone && state.split_around[ring.vertex[i]] < 255)
         ++state.split_around[ring.vertex[i]];

@@ -4,8 +4,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 
 #include "formats/pstrip/payload/compact/chord_choice.h"
+#include "formats/pstrip/payload/compact/mixed_split.h"
 #include "formats/pstrip/payload/compact/near_spread.h"
 #include "formats/pstrip/payload/compact/ring_geometry.h"
 #include "formats/pstrip/payload/compact/split_state.h"
@@ -16,6 +18,17 @@
 // split, a writer reads it.
 
 namespace pstrips::inline formats {
+
+/// Whether a vertex splits.
+template <class Coder>
+bool code_flag(Coder& coder, SplitState& state, Index vertex, bool value) {
+  if (state.mixed) return code_mixed_flag(coder, state, vertex, value);
+  return coder.bit(
+      state.models.splits[state.turn[vertex] == Turn::waits_recent ? 1 : 0]
+                         [std::min(state.mesh.face_count_of(vertex), SplitModels::kFaces - 1)]
+                         [std::min<unsigned>(state.split_around[vertex], SplitModels::kSplit - 1)],
+      value);
+}
 
 /// Which chord of the ring parts the faces of the two vertices.
 ///
@@ -54,18 +67,22 @@ void code_step(Coder& coder, SplitState& state, Index vertex, const VertexRing& 
   const unsigned up = guess.up(), u = up == 2 ? 0 : up + 1, v = up == 0 ? 2 : up - 1;
   const std::array<std::int64_t, 3> actual = {split.step.x, split.step.y, split.step.z};
   StepGuess::Vector coded;
-  const auto code = [&](ScaledNumberModel& model, unsigned k, std::int64_t guessed, unsigned size) {
-    const std::int64_t off = Coder::kReads ? 0 : actual[k] - guessed;
-    coded[k] = guessed + model.code(coder, static_cast<std::int32_t>(off), size);
+  const NearSpread spread(geometry, split.from, ring.places(split.from, split.to), u, v);
+  std::optional<MixedStep<Coder>> mixed;
+  if (state.mixed) mixed.emplace(coder, state, vertex, ring, geometry, split);
+  const auto code = [&](unsigned nth, unsigned k, std::int64_t guessed, unsigned size) {
+    const auto off = static_cast<std::int32_t>(Coder::kReads ? 0 : actual[k] - guessed);
+    coded[k] = guessed + (mixed ? mixed->across(nth, k, guessed, size, off)
+                                : models.tangential[nth].code(coder, off, size));
   };
   coder.part(Part::tangential);
-  const NearSpread spread(geometry, split.from, ring.places(split.from, split.to), u, v);
-  code(models.tangential[0], u, guess.across(u), spread.first());
-  code(models.tangential[1], v, guess.across(v) + spread.second_off(coded[u] - guess.across(u)),
-       spread.second());
+  code(0, u, guess.across(u), spread.first());
+  code(1, v, guess.across(v) + spread.second_off(coded[u] - guess.across(u)), spread.second());
   const std::int64_t height = guess.height(coded[u], coded[v]);
   coder.part(Part::normal);
-  code(models.normal, up, height, (geometry.length() + mean_normal_error(state, ring)) / 2);
+  const auto above = static_cast<std::int32_t>(Coder::kReads ? 0 : actual[up] - height);
+  const unsigned size = (geometry.length() + mean_normal_error(state, ring)) / 2;
+  coded[up] = height + (mixed ? mixed->above(above) : models.normal.code(coder, above, size));
 
   const std::int64_t off = coded[up] - height;
   const unsigned error = half_octaves(static_cast<std::uint64_t>(off * off) * 4);

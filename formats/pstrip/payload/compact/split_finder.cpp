@@ -101,9 +101,9 @@ bool SplitFinder::find_chord(Index parent, GridSplit& split) {
   if (split.from >= size || split.to >= size || split.from == split.to) return false;
   const unsigned side = (split.to + size - split.from) % size;
   if (side >= SymbolModel::kSymbols) return false;  // the last symbol stands for no chord
-  if (state_.splits.placement == Placement::optimal && 2 * side == size &&
-      ring_.vertex[split.from] > ring_.vertex[split.to])
-    return false;
+  const bool halves = 2 * side == size, optimal = state_.splits.placement == Placement::optimal;
+  if (optimal && halves && ring_.vertex[split.from] > ring_.vertex[split.to]) return false;
+  if (optimal && state_.splits.mixed && 2 * side > size) return false;
   unsigned at = split.from;
   for (unsigned i = 0; i < size; ++i, at = ring_.next(at))
     if (ring_.corner[at] != kNone && (moved(ring_.corner[at]) != nullptr) != (i < side))

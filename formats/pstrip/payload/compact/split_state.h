@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/progressive_strips.h"
 #include "core/star_mesh.h"
+#include "formats/pstrip/payload/compact/mixed_models.h"
 #include "formats/pstrip/payload/compact/split_models.h"
 
 namespace pstrips::inline formats {
@@ -32,7 +34,10 @@ enum class Turn : std::uint8_t {
 
 /// A mesh between two batches, as both sides know it.
 struct SplitState {
-  explicit SplitState(Placement how) : placement(how), models(how) {}
+  explicit SplitState(Placement how, Effort effort = Effort::fast)
+      : placement(how),
+        models(how),
+        mixed(effort == Effort::small ? std::make_unique<MixedModels>(how) : nullptr) {}
 
   Placement placement;
   StarMesh mesh;
@@ -43,6 +48,7 @@ struct SplitState {
   std::vector<std::uint8_t> split_around;  ///< neighbours split in this batch; stops at 255
   std::vector<std::uint8_t> normal_error;  ///< quarter octaves, smoothed
   SplitModels models;
+  std::unique_ptr<MixedModels> mixed;  ///< with the effort `small`
 
   Index add_vertex(GridPoint at) {
     const Index vertex = mesh.add_vertex();
@@ -56,6 +62,7 @@ struct SplitState {
     turn.push_back(Turn::waits);
     split_around.push_back(0);
     normal_error.push_back(0);
+    if (mixed) mixed->trace.emplace_back();
   }
 };
 

@@ -36,21 +36,36 @@ class StepGuess {
   unsigned up_ = 0;
 };
 
+/// The vector product over the face from a neighbour to the next, 50 bits.
+inline StepGuess::Vector face_normal(const RingGeometry& geometry, unsigned place) {
+  const GridPoint a = geometry.arm(place),
+                  b = geometry.arm(place + 1 == geometry.size() ? 0 : place + 1);
+  return {std::int64_t{a.y} * b.z - std::int64_t{a.z} * b.y,
+          std::int64_t{a.z} * b.x - std::int64_t{a.x} * b.z,
+          std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x};
+}
+
 /// In sixteenths, 29 bits.
 inline StepGuess::Vector mean_of(const RingGeometry::Run& run) {
   const std::int64_t scale = kCounts.reciprocal[run.count];
   return {(run.sum.x * scale) >> 12, (run.sum.y * scale) >> 12, (run.sum.z * scale) >> 12};
 }
 
+/// Of the two ends of a chord, of its near side and of the far one.
+inline std::array<StepGuess::Vector, 3> means_beside(const RingGeometry& geometry,
+                                                     const RingGeometry::Run& near, unsigned from,
+                                                     unsigned to) {
+  const bool both = !geometry.is_absent(from) && !geometry.is_absent(to);
+  return {mean_of({geometry.arm(from) + geometry.arm(to), 0, both ? 2u : 1u}), mean_of(near),
+          mean_of(geometry.rest_of(near, from, to))};
+}
+
 inline StepGuess::StepGuess(Placement placement, const VertexRing& ring,
                             const RingGeometry& geometry, const GridSplit& split) {
   const unsigned side = ring.places(split.from, split.to);
   const StepWeights& weights = step_weights(placement, ring.open, side, ring.size - side);
-  const RingGeometry::Run near = geometry.run(split.from, side + 1);
-  const bool both = !geometry.is_absent(split.from) && !geometry.is_absent(split.to);
-  const std::array<Vector, 3> means = {
-      mean_of({geometry.arm(split.from) + geometry.arm(split.to), 0, both ? 2u : 1u}),
-      mean_of(near), mean_of(geometry.rest_of(near, split.from, split.to))};
+  const std::array<Vector, 3> means =
+      means_beside(geometry, geometry.run(split.from, side + 1), split.from, split.to);
   for (unsigned k = 0; k < 3; ++k) {
     across_[k] = above_[k] = 0;
     for (unsigned i = 0; i < means.size(); ++i) {
@@ -68,10 +83,8 @@ inline void StepGuess::find_normal(const VertexRing& ring, const RingGeometry& g
                                    unsigned from, unsigned faces) {
   for (unsigned i = from; faces > 0; --faces, i = ring.next(i)) {
     if (ring.corner[i] == kNone) continue;
-    const GridPoint a = geometry.arm(i), b = geometry.arm(ring.next(i));
-    normal_[0] += std::int64_t{a.y} * b.z - std::int64_t{a.z} * b.y;
-    normal_[1] += std::int64_t{a.z} * b.x - std::int64_t{a.x} * b.z;
-    normal_[2] += std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
+    const Vector own = face_normal(geometry, i);
+    for (unsigned k = 0; k < 3; ++k) normal_[k] += own[k];
   }
   std::array<std::uint64_t, 3> length;
   for (unsigned k = 0; k < 3; ++k)
