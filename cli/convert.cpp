@@ -6,6 +6,8 @@
 
 #include "cli/attribute_names.h"
 #include "cli/command.h"
+#include "cli/conversion_report.h"
+#include "cli/number_options.h"
 #include "cli/option_groups.h"
 #include "cli/output_option.h"
 #include "cli/progress_bar.h"
@@ -23,6 +25,8 @@ struct Options {
   std::string attributes;
   bool verbose = false;
   bool ascii = false, gltf_strips = false, prefix = false;
+  bool strict = false;
+  std::string report = "text";
   OutputOption output;
   EncodeOptionsGroup encode;
   LevelOptions level;
@@ -38,7 +42,9 @@ struct Conversion {
   EncodeOptions encode;
   ProgressBar bar{io};
   std::vector<SimplifyReport> simplified{};
-  std::vector<std::string> converted{}, dropped{};  ///< before the writer saw the model
+  /// Before the writer saw the model; `read` is what the reader left out, which was said.
+  std::vector<std::string> converted{}, dropped{}, read{};
+  std::vector<KindCount> kept{};
 };
 
 std::string counts_of(const ConstraintCounts& counts) {
@@ -186,6 +192,21 @@ Result<ProgressiveStrips> strips_of(Conversion& job, const Model& model) {
   return strips;
 }
 
+// What arrives in the target, and what it has no place for.
+void note_arrivals(Conversion& job, const Model& model) {
+  Arrivals found = arrivals(model, job.target);
+  job.kept = std::move(found.kept);
+  for (const auto& [kind, count] : found.dropped)
+    job.dropped.push_back(fmt::format("{} ({})", kind, grouped(count)));
+}
+
+SaveOptions save_options(const Conversion& job) {
+  SaveOptions out;
+  out.strict = job.options.strict;
+  out.dropped_before = job.dropped;
+  return out;
+}
+
 Result<SavedFiles> save_model(const Conversion& job, const Model& model) {
   return save(model, job.options.output.path, job.target,
               {.ascii = job.options.ascii,
@@ -193,25 +214,47 @@ Result<SavedFiles> save_model(const Conversion& job, const Model& model) {
                .threads = job.options.limits.limits.threads,
                .transforms = job.options.placing.transforms(),
                .limits = job.options.limits.limits,
+               .strict = job.options.strict,
+               .dropped_before = job.dropped,
                .replace_companions = job.options.output.force});
 }
 
 Result<SavedFiles> save_records(const Conversion& job, ProgressiveStrips& strips) {
   if (!strips.complete) strips = cut(strips, strips.packets.size());
-  return save(strips, job.options.output.path, job.target);
+  return save(strips, job.options.output.path, job.target, save_options(job));
+}
+
+void report_conversion(const Conversion& job, const SavedFiles& saved) {
+  ConversionReport out{.input = job.options.input,
+                       .output = job.options.output.path,
+                       .kept = job.kept,
+                       .converted = job.converted,
+                       .dropped = saved.notes,
+                       .files = saved.files};
+  out.converted.insert(out.converted.end(), saved.converted.begin(), saved.converted.end());
+  print_lines(job.io, out);
+  if (job.options.report != "json") return;
+  out.dropped.insert(out.dropped.begin(), job.read.begin(), job.read.end());
+  print_json(job.options.output.is_stdout() ? job.io.err : job.io.out, out);
+}
+
+ExitCode refuse_losses(const Conversion& job) {
+  job.io.err << "pstrips: " << escaped(job.options.output.path)
+             << ": not written, since something would be left out (--strict)\n";
+  return kDifference;
 }
 
 ExitCode finish(const Conversion& job, std::uint64_t input_bytes, const Result<SavedFiles>& saved) {
-  const auto& [options, io, target, encode, bar, simplified, converted, dropped] = job;
+  const Options& options = job.options;
+  const Streams& io = job.io;
   if (!saved) return report_unsaved(io, saved.error(), options.output);
-  note(io, options.output.path, converted, "converted");
-  note(io, options.output.path, saved->converted, "converted");
-  note(io, options.output.path, dropped);
-  note(io, options.output.path, saved->notes);
+  const bool is_written = !saved->files.empty();
+  report_conversion(job, *saved);
+  if (!is_written) return refuse_losses(job);
   list_written(io, saved->files,
                fmt::format("{} ({}) ->", escaped(options.input), byte_size(input_bytes)));
   if (options.verbose || !options.output.is_stdout())
-    report_simplification(io, simplified, options.verbose);
+    report_simplification(io, job.simplified, options.verbose);
   if (!options.output.is_stdout()) report_grid(job);
   return kOk;
 }
@@ -223,12 +266,13 @@ ExitCode convert(Conversion& job, LoadedFile file) {
     return finish(job, bytes, save_records(job, std::get<ProgressiveStrips>(file.content)));
   auto model = model_of(job, std::move(file));
   if (!model) return report(job.io, model.error(), options.input);
+  if (!job.io.quiet || options.strict || options.report == "json") note_arrivals(job, *model);
   if (!is_progressive(job.target)) return finish(job, bytes, save_model(job, *model));
   const auto placed = placed_model(job, std::move(*model));
   if (!placed) return report(job.io, placed.error(), options.input);
   const auto strips = strips_of(job, *placed);
   if (!strips) return report(job.io, strips.error(), options.input);
-  return finish(job, bytes, save(*strips, options.output.path, job.target));
+  return finish(job, bytes, save(*strips, options.output.path, job.target, save_options(job)));
 }
 
 ExitCode run(const Options& options, const Streams& io) {
@@ -253,6 +297,11 @@ ExitCode run(const Options& options, const Streams& io) {
   if (const auto fits = check_input(options, *file, *target); !fits)
     return report(io, fits.error(), options.input);
   note(io, options.input, file->notes);
+  job.read = file->notes;
+  if (options.strict && !job.read.empty()) {
+    report_conversion(job, {});
+    return refuse_losses(job);
+  }
   return convert(job, std::move(*file));
 }
 
@@ -272,6 +321,12 @@ Command add_convert(CLI::App& root) {
   app->add_flag("--gltf-strips", options->gltf_strips, "glTF output as strips, one primitive each");
   app->add_flag("--allow-prefix", options->prefix,
                 "Accept a binary progressive file that ends early, as far as it goes");
+  app->add_flag("--strict", options->strict,
+                "Write nothing, and end with code 7, when anything would be left out");
+  takes_one_of(app->add_option("--report", options->report,
+                               "What was kept, converted and left out: text goes to standard "
+                               "error, json to standard output"),
+               {"text", "json"});
   options->encode.add_to(*app);
   options->level.add_to(*app);
   options->placing.add_to(*app);

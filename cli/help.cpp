@@ -21,7 +21,7 @@ constexpr std::size_t kMaxPlaceholder = 22;
 
 constexpr std::string_view kExitCodes =
     "Exit codes: 0 ok, 1 command line, 2 input or output, 3 invalid file, 4 runtime, "
-    "5 unsupported, 7 difference found.";
+    "5 unsupported, 7 difference found, or a loss with --strict.";
 
 struct Word {
   std::string_view word, meaning;

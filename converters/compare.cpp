@@ -1,6 +1,7 @@
 #include "converters/compare.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -10,6 +11,7 @@
 #include "converters/placement.h"
 #include "core/equal_elements.h"
 #include "core/group_by.h"
+#include "formats/gltf/kept_kinds.h"
 
 namespace pstrips::inline converters {
 namespace {
@@ -257,6 +259,49 @@ Model one_mesh(const Model& model) {
   return merge_meshes(model, notes);
 }
 
+// The file's name alone: folders differ between copies of a scene.
+std::string_view file_name(std::string_view uri) {
+  return uri.substr(std::min(uri.size(), uri.find_last_of("/\\") + 1));
+}
+
+// Of an embedded image against a name nothing is known.
+bool same_image(const Image& a, const Image& b) {
+  if (a.data.empty() != b.data.empty()) return true;
+  return a.data.empty() ? file_name(a.uri) == file_name(b.uri) : a.data == b.data;
+}
+
+bool same_texture(const Scene& a, const Material& x, const Scene& b, const Material& y) {
+  const bool has_x = x.base_color_image < a.images.size();
+  const bool has_y = y.base_color_image < b.images.size();
+  if (!has_x || !has_y) return has_x == has_y;
+  return same_image(a.images[x.base_color_image], b.images[y.base_color_image]);
+}
+
+// Beyond what is lost when a factor is written with seven digits.
+template <class Factors>
+bool same_factors(const Factors& a, const Factors& b) {
+  return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) <= 1e-6; });
+}
+
+// Of materials in the same places and of the same names; faces are compared by the names.
+void compare_materials(const Scene& a, const Scene& b, std::vector<std::string>& differences) {
+  if (a.materials.size() != b.materials.size()) return;
+  for (std::size_t i = 0; i < a.materials.size(); ++i) {
+    const Material &x = a.materials[i], &y = b.materials[i];
+    if (x.name != y.name) continue;
+    const std::string place = "material " + (x.name.empty() ? std::to_string(i) : x.name) + ": ";
+    const auto differ = [&](bool is_same, const char* what) {
+      if (!is_same) differences.push_back(place + what);
+    };
+    const auto one = [](double value) { return std::array{value}; };
+    differ(same_factors(x.base_color, y.base_color), "base color");
+    differ(same_factors(x.emissive, y.emissive), "emissive color");
+    differ(same_factors(one(x.metallic), one(y.metallic)), "metallic factor");
+    differ(same_factors(one(x.roughness), one(y.roughness)), "roughness");
+    differ(same_texture(a, x, b, y), "texture");
+  }
+}
+
 // Of trees of the same shape; others are compared by where they put the meshes alone.
 void name_moved_nodes(const std::vector<Node>& a, const std::vector<Node>& b,
                       std::vector<std::string>& differences) {
@@ -306,6 +351,9 @@ Comparison compare(const Model& given_a, const Model& given_b, std::size_t sampl
     placed_b = placed(given_b, out.differences);
     name_moved_nodes(given_a.scene.nodes, given_b.scene.nodes, out.differences);
   }
+  compare_materials(given_a.scene, given_b.scene, out.differences);
+  const std::vector<std::string> kinds = different_kinds(given_a.scene, given_b.scene);
+  out.differences.insert(out.differences.end(), kinds.begin(), kinds.end());
   if (!out.differences.empty()) out.equivalence = Equivalence::different;
   const Model &a = placed_a ? *placed_a : given_a, &b = placed_b ? *placed_b : given_b;
   Model all_a, all_b;

@@ -25,7 +25,7 @@ struct Comparison {
   std::vector<std::string> differences;
   /// Of attributes that both have, when the connectivity is the same and values are not.
   std::vector<AttributeDifference> attributes;
-  bool scenes_equal = false;  ///< materials, images and nodes; does not count for equivalence
+  bool scenes_equal = false;  ///< materials, images and nodes, to the last bit and name
   // Distances between the surfaces over the larger bounding-box diagonal; 0 unless different,
   // infinite when only one of the two has a surface.
   double hausdorff = 0;
@@ -39,6 +39,9 @@ struct Comparison {
 ///
 /// A vertex is the set of its wedges, a wedge its position and attributes, a face its loop of
 /// wedges, its kind, its material's name and its attributes.
+///
+/// Beside the meshes, materials of one name in one place (factors and base color texture), and the
+/// animations, skins, cameras and lights of a glTF count for equivalence.
 ///
 /// samples  points on each surface for the distances
 /// cost     O(n log n); deterministic

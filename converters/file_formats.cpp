@@ -52,12 +52,12 @@ Certainty detect_pm(ByteView file) { return certainty(looks_like_text(file), Cer
 
 using enum Feature;
 
-constexpr Features kGltfHolds = {faces,           lines,          points, wedges,
-                                 attributes,      several_meshes, nodes,  materials,
-                                 embedded_images, separate_strips};
+constexpr Features kGltfHolds = {faces,           lines,          points,         wedges,
+                                 attributes,      several_meshes, nodes,          materials,
+                                 embedded_images, asset,          separate_strips};
 constexpr Features kStripsHold = {
     faces,      polygons,        lines,          points, levels,    double_positions, wedges,
-    attributes, face_attributes, several_meshes, nodes,  materials, embedded_images};
+    attributes, face_attributes, several_meshes, nodes,  materials, embedded_images,  asset};
 
 constexpr std::array kFormats = {
     FileFormatRow{.format = FileFormat::ply,

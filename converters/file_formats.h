@@ -40,6 +40,7 @@ enum class Feature : std::uint8_t {
   nodes,             ///< a scene with transforms
   materials,         ///< beyond the name of a texture
   embedded_images,   ///< image files within the file
+  asset,             ///< animations, skins, cameras, lights and what else a glTF holds
   text_and_binary,   ///< has both forms, of which a writer chooses
   separate_strips,   ///< strips as primitives of their own, of which a writer chooses
 };

@@ -45,13 +45,15 @@ WriteBytes counted(const WriteBytes& write, std::uint64_t& bytes) {
   };
 }
 
-Result<SavedFiles> write(Result<FileSet> set, bool replace_companions) {
+Result<SavedFiles> write(Result<FileSet> set, const SaveOptions& options) {
   if (!set) return tl::unexpected(set.error());
-  if (!replace_companions)
-    if (const auto free = check_companions(*set); !free) return tl::unexpected(free.error());
   SavedFiles out;
-  out.notes = std::move(set->notes);
+  out.notes = options.dropped_before;
+  out.notes.insert(out.notes.end(), set->notes.begin(), set->notes.end());
   out.converted = std::move(set->converted);
+  if (options.strict && !out.notes.empty()) return out;
+  if (!options.replace_companions)
+    if (const auto free = check_companions(*set); !free) return tl::unexpected(free.error());
   std::vector<OutputFile> views;
   for (const FileSet::File& file : set->files) out.files.push_back({file.path, file.bytes.size()});
   for (std::size_t i = 0; i < set->files.size(); ++i) {
@@ -131,14 +133,14 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
   if (!set) return tl::unexpected(std::move(set).error());
   set->converted.insert(set->converted.begin(), converted.begin(), converted.end());
   set->notes.insert(set->notes.begin(), dropped.begin(), dropped.end());
-  return write(std::move(set), options.replace_companions);
+  return write(std::move(set), options);
 }
 
-Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path,
-                        FileFormat format) {
+Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path, FileFormat format,
+                        const SaveOptions& options) {
   const FileFormatRow& row = row_of(format);
   if (!row.write_strips) return not_written(format, "progressive strips");
-  return write(row.write_strips(strips, output_name(path, format)), true);
+  return write(row.write_strips(strips, output_name(path, format)), options);
 }
 
 }  // namespace pstrips::inline converters

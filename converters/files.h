@@ -59,6 +59,10 @@ struct SaveOptions {
   unsigned threads = 0;        ///< see thread_count(); the bytes are the same
   bool transforms = true;      ///< apply nodes where the format has none, see place_meshes()
   Limits limits;               ///< what the copies that nodes make may take
+  /// Writes nothing when anything is left out: SavedFiles::files is empty then.
+  bool strict = false;
+  /// What was left out on the way here: it stands first in the notes and counts for `strict`.
+  std::vector<std::string> dropped_before = {};
   /// Whether files beside the output, which the caller did not name, may be replaced by others.
   bool replace_companions = true;
 };
@@ -90,7 +94,7 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
                         const SaveOptions& options = {});
 
 /// Writes progressive strips in a progressive format.
-Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path,
-                        FileFormat format);
+Result<SavedFiles> save(const ProgressiveStrips& strips, const std::string& path, FileFormat format,
+                        const SaveOptions& options = {});
 
 }  // namespace pstrips::inline converters

@@ -61,11 +61,14 @@ std::string round_trip(const Model& model, const Variant& variant) {
   return test::round_trip(model, options, variant.xml);
 }
 
-// The way back into the format it came from.
-std::string save_again(const LoadedFile& file, const Model& model, const fs::path& folder) {
+// The way back into the format it came from. What a broken file has that the format forbids is
+// mended or left out, and said.
+std::string save_again(const LoadedFile& file, const Model& model, bool is_broken,
+                       const fs::path& folder) {
   const std::string path = (folder / ("again." + std::string(name_of(file.format)))).string();
   const auto saved = save(model, path, file.format);
   if (!saved) return "save: " + saved.error().message;
+  if (is_broken && !(saved->notes.empty() && saved->converted.empty())) return {};
   auto again = load(path);
   if (!again) return "load what was saved: " + again.error().message + " " + again.error().path;
   const Model back = std::move(*again).model().value();
@@ -112,7 +115,7 @@ TEST_F(Models, InFilesComeBack) {
           << "naive " << (variant.encoding == MapEncoding::naive) << " xml " << variant.xml
           << " order " << variant.keep_order;
     if (info.format != FileFormat::pm) {
-      EXPECT_EQ(save_again(info, model, folder_), "");
+      EXPECT_EQ(save_again(info, model, name.starts_with("nasty/broken-gltf"), folder_), "");
     }
   }
 }
