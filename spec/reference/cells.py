@@ -5,11 +5,13 @@ import struct
 
 from model import require
 from run import length
+from squares import Square
 
 BOUND = 1 << 23  # a cell is within, not at, ± this
 
 I8, U8, I16, U16, I32, U32, F32, F64 = range(8)  # type of a format
 INTEGER_CODES = "bBhHiI"
+DIRECTIONS = 1 << 13  # + N: directions of N bits
 
 
 class FloatCells:
@@ -93,10 +95,46 @@ class GridPoints:
             return struct.pack("<f", math.copysign(math.inf, product))
 
 
-def of_attribute(form, e, exact):
-    """The cells of each component of a wedge attribute."""
-    kind = FloatCells if form.type in (F32, F64) else IntegerCells
-    return [kind(form.type, e, exact)] * form.count
+class DirectionComponent:
+    """One component of a direction, whose cell is a point of a square."""
+
+    exact = True
+
+    def __init__(self, square, axis):
+        self.square = square
+        self.axis = axis
+
+    def left(self, point):
+        return 0
+
+    def number(self, point, rest=None):
+        unit = self.square.unit(self.square.placed(*point))
+        return struct.pack("<f", unit[self.axis] / (1 << 24))
+
+
+class AttributeCells:
+    """The cells of a wedge attribute; `number` is that of the field in BASE."""
+
+    def __init__(self, form, number):
+        self.bits = number - DIRECTIONS if number >= DIRECTIONS else None  # of a direction
+        if self.bits is not None:
+            require(form.type == F32 and form.count in (3, 4) and 4 <= self.bits <= 16, "K-002")
+            square = Square(self.bits)
+            self.kinds = [DirectionComponent(square, axis) for axis in range(3)]
+            self.kinds += [FloatCells(F32, 0, True)] * (form.count - 3)
+            self.columns = form.count - 1
+            return
+        z, exact = divmod(number, 2)
+        e = z // 2 if z % 2 == 0 else -(z + 1) // 2
+        kind = FloatCells if form.type in (F32, F64) else IntegerCells
+        self.kinds = [kind(form.type, e, bool(exact))] * form.count
+        self.columns = form.count
+
+    def by_component(self, row):
+        """(kind, cell) of each component."""
+        if self.bits is not None:
+            row = [row[:2]] * 3 + list(row[2:])
+        return zip(self.kinds, row)
 
 
 def exponent_of(step):

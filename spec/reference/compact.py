@@ -4,9 +4,10 @@ import cells
 import compact_base
 import compact_faces
 import model
+from attributes import AttributeModels, AttributeReader, WedgeSurroundings
 from cells import BOUND
 from container import Payload
-from compact_wedges import Attributes, SplitWedges, WedgeLists, WedgeModels
+from compact_wedges import SplitWedges, WedgeLists, WedgeModels
 from mixed import MixedModels
 from geometry import AXES, Chords, Steps, Surroundings, place_split
 from model import OPTIMAL, SMALL, require
@@ -44,8 +45,8 @@ class MeshDecoder:
         self.mesh = mesh
         require(mesh.encoding == model.TRIANGLES, "C-052")
         require(mesh.position.count == 3, "M-061")
-        self.components = sum(form.count for form in mesh.wedge_attributes)
-        require(self.components <= MOST_COMPONENTS, "K-001")
+        components = sum(form.count for form in mesh.wedge_attributes)
+        require(components <= MOST_COMPONENTS, "K-001")
         self.position_cells = cells.of_positions(mesh.position, mesh.grid)
         self.state = self.read_base(payload)
         model.check_base(mesh, self.state)
@@ -75,12 +76,12 @@ class MeshDecoder:
         require((vertices, wedges) == (mesh.base_vertices, mesh.base_wedges), "C-051")
         require(map_entries <= mesh.map_entries, "C-051")
         require(map_entries % 3 == 0, "S-005")
-        self.wedge_cells = []  # of each component
+        self.wedge_cells = []  # of each attribute
         for form in mesh.wedge_attributes:
-            z, exact = divmod(read_varint(payload, 1 << 14), 2)
-            e = z // 2 if z % 2 == 0 else -(z + 1) // 2
-            self.wedge_cells += cells.of_attribute(form, e, bool(exact))
-        base = compact_base.read(mesh, map_entries, self.components, payload.rest())
+            self.wedge_cells.append(cells.AttributeCells(form, read_varint(payload, 1 << 14)))
+        self.layout = [(these.columns, these.bits) for these in self.wedge_cells]
+        self.attribute_models = AttributeModels(len(self.layout))
+        base = compact_base.read(mesh, map_entries, self, payload.rest())
         return model.State(base.position, base.vertex_of, [base.wedges], base.map,
                            base.triangle_group)
 
@@ -131,9 +132,13 @@ class MeshDecoder:
         entries = len(self.state.map) + 3 * len(split.faces)
         require(entries <= self.mesh.map_entries, "K-006")
         wedges = SplitWedges(self.mesh, self.state, self.stars, self.wedge_lists,
-                             self.wedge_models, run, split)
+                             self.wedge_models, split, (new, other),
+                             self.attributes(run))
         self.apply(wedges.record(new, other if placement == OPTIMAL else None))
         return ring
+
+    def attributes(self, run):
+        return AttributeReader(self.layout, self.attribute_models, run)
 
     def read_long_form(self, run, vertex):
         """compact.md 6.4."""
@@ -172,11 +177,17 @@ class MeshDecoder:
             require(wedges <= self.mesh.wedges - len(self.state.vertex_of), "K-006")
             self.wedge_lists.of_vertex.append([])
             before = len(self.state.vertex_of) - 1
-            attributes = Attributes(self.mesh, self.state, self.wedge_models, run, None)
-            for _ in range(wedges):
+            rows = list(self.state.attributes[0])
+            for wedge in range(before + 1, before + 1 + wedges):
                 self.wedge_lists.uses.append(0)
-                cells_of_wedge = attributes.read([before] if before >= 0 else [])
-                record.new_wedges.append(model.NewWedge([cells_of_wedge], []))
+                around = WedgeSurroundings(position)
+                if before >= 0:
+                    around.add_neighbour(before)
+                siblings = range(wedge - 1, before, -1)[:64]
+                rows.append(self.attributes(run).read(
+                    around, siblings, rows.__getitem__,
+                    lambda wedge: self.state.position[self.state.vertex_of[wedge]]))
+                record.new_wedges.append(model.NewWedge([rows[-1]], []))
             self.wedge_lists.come(record.parent, range(before + 1, before + 1 + wedges))
             self.apply(record)
 
@@ -186,12 +197,11 @@ class MeshDecoder:
         """(cells, cell) of each number in the order of FINE."""
         for position in self.state.position:
             yield from zip(self.position_cells, position)
-        component = 0
-        for form in self.mesh.wedge_attributes:
-            these = range(component, component + form.count)
+        first = 0
+        for these in self.wedge_cells:
             for wedge in self.state.attributes[0]:
-                yield from ((self.wedge_cells[k], wedge[k]) for k in these)
-            component += form.count
+                yield from these.by_component(wedge[first : first + these.columns])
+            first += these.columns
 
     def numbers(self, rests=None):
         """The bytes of each number in the order of FINE."""
@@ -214,7 +224,8 @@ class MeshDecoder:
         self.fine = self.numbers(rests)
 
     def check_fine(self):
-        exact = all(kind.exact for kind in self.position_cells + self.wedge_cells)
+        kinds = self.position_cells + [kind for these in self.wedge_cells for kind in these.kinds]
+        exact = all(kind.exact for kind in kinds)
         require((self.fine is None) == exact, "C-068")
 
     def level(self):

@@ -5,7 +5,7 @@ import dataclasses
 import itertools
 
 import model
-from cells import BOUND
+from attributes import WedgeSurroundings, bounded
 from model import require
 from run import BitModel, Models, NumberModel, Run, SymbolModel, length
 
@@ -20,11 +20,6 @@ def next_of(elements):
 def distance(a, b):
     """The sum of the differences, without their signs."""
     return sum(abs(a[k] - b[k]) for k in AXES)
-
-
-def bounded(cell):
-    """The cell nearest to a number."""
-    return max(-BOUND + 1, min(BOUND - 1, cell))
 
 
 @dataclasses.dataclass
@@ -48,22 +43,22 @@ class Gate:
 class BaseRun:
     """Decodes the run; the results are position, vertex_of, wedges, map and triangle_group."""
 
-    def __init__(self, mesh, map_entries, components, run):
+    def __init__(self, mesh, map_entries, attributes, run):
         self.mesh = mesh
         self.run = run
-        self.components = components
+        self.attributes = attributes
         self.place, self.third = SymbolModel(), Models(SymbolModel)
         self.next, self.usual = BitModel(), BitModel()
         self.next_wedge, self.group = BitModel(), BitModel()
         self.near, self.far = NumberModel(), NumberModel()
         self.misses = [0, 0]
         self.triangles_at = collections.Counter()  # of each vertex so far
-        self.component = Models(NumberModel)
         self.queue = collections.deque()
         self.position = [None] * mesh.base_vertices  # None: has not come yet
         self.vertex_of = [None] * mesh.base_wedges
-        self.wedges = [None] * mesh.base_wedges  # for each the cells of all components
-        self.last_wedge = None
+        self.wedges = [None] * mesh.base_wedges  # for each the cells of all attributes
+        self.last_wedge = None  # that was coded
+        self.wedges_of = [[] for _ in self.position]  # the last one first
         self.map = []
         self.triangle_group = []
         self.last_position = [0, 0, 0]
@@ -103,8 +98,8 @@ class BaseRun:
 
     def read_at_gate(self, gate):
         u, v = gate.start.vertex, gate.end.vertex
-        first = self.read_corner(v, gate.end.wedge)
-        second = self.read_corner(u, gate.start.wedge)
+        first = self.read_corner(v, gate.end.wedge, [])
+        second = self.read_corner(u, gate.start.wedge, [first])
         context = self.triangles_at[u] > 4, self.triangles_at[v] > 4
         symbol = self.third[context].read(self.run)
         likely = self.likely(gate)
@@ -126,7 +121,7 @@ class BaseRun:
             require(vertex < self.mesh.base_vertices, "K-005")
             if self.position[vertex] is None:
                 self.read_position(vertex, self.far, self.last_position)
-            corners.append(self.read_corner(vertex, self.last_shown.get(vertex)))
+            corners.append(self.read_corner(vertex, self.last_shown.get(vertex), corners))
         return corners
 
     def likely(self, gate):
@@ -163,9 +158,7 @@ class BaseRun:
             self.read_position(vertex, self.near, guesses[self.better_guess()])
             self.misses = [m + distance(self.position[vertex], guess) - m // 8
                            for m, guess in zip(self.misses, guesses)]
-        against = [a + b - c for a, b, c in zip(*(self.wedges[corner.wedge]
-                                                  for corner in (first, second, gate.third)))]
-        return self.read_corner(vertex, self.last_shown.get(vertex), against)
+        return self.read_corner(vertex, self.last_shown.get(vertex), [first, second], gate)
 
     def read_position(self, vertex, model, against):
         """A new vertex."""
@@ -173,14 +166,14 @@ class BaseRun:
         self.position[vertex] = position
         self.last_position = position
 
-    def read_corner(self, vertex, usual, against=None):
-        """*A corner*, but for its position: its wedge, whose attributes follow when it is new."""
+    def read_corner(self, vertex, usual, before, gate=None):
+        """*A corner*, but for its position: its wedge, whose attributes follow when it is new.
+
+        before: the corners of the triangle before it; gate: that of a third corner"""
         wedge = self.read_wedge(vertex, usual)
         require(wedge < self.mesh.base_wedges, "K-005")
         if self.wedges[wedge] is None:
-            if against is None and usual is not None:
-                against = self.wedges[usual]
-            self.read_new_wedge(wedge, vertex, against)
+            self.read_new_wedge(wedge, vertex, self.surroundings(vertex, usual, before, gate))
         require(self.vertex_of[wedge] == vertex, "K-005")
         self.last_shown[vertex] = wedge
         return Corner(vertex, wedge)
@@ -194,14 +187,34 @@ class BaseRun:
             return next_of(self.wedges)
         return self.run.raw(length(self.mesh.base_wedges))
 
-    def read_new_wedge(self, wedge, vertex, against):
-        """against: a cell for each component, or None for those of the wedge coded last."""
-        if against is None:
-            against = self.last_wedge or [0] * self.components
-        cells = tuple(bounded(against[k] + self.component[k].read(self.run))
-                      for k in range(self.components))
+    def surroundings(self, vertex, usual, before, gate):
+        """What is there of the triangle, and the one behind the gate if it shows the same wedges."""
+        out = WedgeSurroundings(self.position[vertex])
+        for corner in before:
+            out.add_neighbour(corner.wedge)
+        if len(before) == 2:
+            out.add_face(*(self.position[corner.vertex] for corner in before))
+        if gate is not None and [c.wedge for c in before] == [gate.end.wedge, gate.start.wedge]:
+            out.add_neighbour(gate.third.wedge)
+            start, end, third = (self.position[corner.vertex]
+                                 for corner in (gate.start, gate.end, gate.third))
+            out.add_face(end, third, start)
+        if not out.neighbours and usual is not None:
+            out.add_neighbour(usual)
+        self.add_last_wedge(out)
+        return out
+
+    def add_last_wedge(self, surroundings):
+        if not surroundings.neighbours and self.last_wedge is not None:
+            surroundings.add_neighbour(self.last_wedge)
+
+    def read_new_wedge(self, wedge, vertex, surroundings):
         self.vertex_of[wedge] = vertex
-        self.wedges[wedge] = self.last_wedge = cells
+        self.wedges[wedge] = self.attributes.read(
+            surroundings, self.wedges_of[vertex][:64], self.wedges.__getitem__,
+            lambda other: self.position[self.vertex_of[other]])
+        self.wedges_of[vertex].insert(0, wedge)
+        self.last_wedge = wedge
 
     def read_group(self):
         """*The group*."""
@@ -225,9 +238,12 @@ class BaseRun:
             if not self.mesh.single_wedges:
                 vertex = self.run.raw(length(self.mesh.base_vertices))
                 require(vertex < self.mesh.base_vertices, "K-005")
-            self.read_new_wedge(wedge, vertex, None)
+            around = WedgeSurroundings(self.position[vertex])
+            self.add_last_wedge(around)
+            self.read_new_wedge(wedge, vertex, around)
         self.run.end()
 
 
-def read(mesh, map_entries, components, data):
-    return BaseRun(mesh, map_entries, components, Run(data))
+def read(mesh, map_entries, decoder, data):
+    run = Run(data)
+    return BaseRun(mesh, map_entries, decoder.attributes(run), run)

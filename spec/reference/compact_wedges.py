@@ -3,9 +3,9 @@
 import itertools
 
 import model
-from cells import BOUND
+from attributes import WedgeSurroundings
 from model import require
-from run import BitModel, Models, NumberModel, SymbolModel, length, toward_zero
+from run import BitModel, Models, SymbolModel, length
 from stars import next_corner, previous_corner
 
 MOST_LOOKED_AT = 64  # wedges of a vertex
@@ -23,9 +23,6 @@ class WedgeModels:
         self.of_parent, self.of_third = Models(SymbolModel), Models(SymbolModel)
         self.of_added = SymbolModel()
         self.group = BitModel()
-        self.same = Models(BitModel)
-        self.was_same = {}  # by attribute
-        self.component = Models(NumberModel)
 
 
 class WedgeLists:
@@ -56,47 +53,14 @@ class WedgeLists:
             self.of_vertex[vertex].insert(0, wedge)
 
 
-class Attributes:
-    """Reads the cells of the new wedges of a record (compact.md 7.3)."""
-
-    def __init__(self, mesh, state, models, run, sibling):
-        self.mesh, self.state, self.models, self.run = mesh, state, models, run
-        self.sibling = sibling  # the cells of a wedge, or None
-
-    def read(self, neighbours):
-        """The cells of a new wedge between these wedges."""
-        around = [self.state.attributes[0][wedge] for wedge in neighbours]
-        cells = []
-        for number, form in enumerate(self.mesh.wedge_attributes):
-            these = range(len(cells), len(cells) + form.count)
-            if self.sibling is not None and self.read_same(number):
-                cells += [self.sibling[k] for k in these]
-            else:
-                cells += [self.read_component(k, [other[k] for other in around]) for k in these]
-        self.sibling = tuple(cells)
-        return self.sibling
-
-    def read_same(self, attribute):
-        """Whether all components of an attribute are those of the sibling."""
-        was_same = self.models.was_same.get(attribute, 0)
-        self.models.was_same[attribute] = self.models.same[attribute, was_same].read(self.run)
-        return self.models.was_same[attribute]
-
-    def read_component(self, k, around):
-        against, spread = 0, 0
-        if around:
-            against = toward_zero(sum(around), len(around))
-            spread = max(around) - min(around)
-        cell = against + self.models.component[k, length(spread)].read(self.run)
-        return min(max(cell, 1 - BOUND), BOUND - 1)
-
-
 class SplitWedges:
     """Reads what follows one split in the run."""
 
-    def __init__(self, mesh, state, stars, lists, models, run, split):
+    def __init__(self, mesh, state, stars, lists, models, split, positions, attributes):
         self.mesh, self.state, self.stars, self.lists = mesh, state, stars, lists
-        self.models, self.run, self.split = models, run, split
+        self.models, self.run, self.split = models, attributes.run, split
+        self.of_q, other = positions
+        self.of_p = other or state.position[split.p]
         self.w = len(state.vertex_of)  # wedges before the record
         self.new = 0  # new wedges so far
         self.reassigned = []
@@ -108,7 +72,7 @@ class SplitWedges:
         self.read_wedges()
         self.lists.come(self.split.q, range(self.w, self.w + self.new))
         self.groups = self.read_groups()
-        self.cells = self.read_attributes()
+        self.cells = self.read_attributes(attributes)
 
     # Wedges, 7.1.
 
@@ -313,23 +277,43 @@ class SplitWedges:
 
     # Attributes, 7.3.
 
-    def read_attributes(self):
+    def read_attributes(self, attributes):
         """The cells of each new wedge."""
-        sibling = self.state.attributes[0][self.reassigned[-1]] if self.reassigned else None
-        attributes = Attributes(self.mesh, self.state, self.models, self.run, sibling)
-        return [attributes.read(self.neighbours(self.w + i)) for i in range(self.new)]
+        rows = {}
+        listed = self.lists.first(self.split.q)
 
-    def neighbours(self, wedge):
-        """The wedges at the other corners of the faces in which the new vertex shows a wedge."""
-        out = []
+        def cells_of(wedge):
+            return rows[wedge] if wedge >= self.w else self.state.attributes[0][wedge]
+
+        for wedge in range(self.w, self.w + self.new):
+            siblings = [other for other in listed if other < wedge]
+            rows[wedge] = attributes.read(self.surroundings(wedge), siblings, cells_of,
+                                          self.position_of)
+        return list(rows.values())
+
+    def position_of(self, wedge):
+        vertex = self.state.vertex_of[wedge]
+        return self.of_p if vertex == self.split.p else self.state.position[vertex]
+
+    def surroundings(self, wedge):
+        """The faces in which the new vertex shows a wedge, and the wedges at their other corners."""
+        out = WedgeSurroundings(self.of_q)
         for corner in self.split.moved:
             if self.shown[corner] == wedge:
-                out.append(self.state.map[next_corner(corner)])
-                out.append(self.state.map[previous_corner(corner)])
-        for p, q, third in self.face_wedges:
+                self.add_face(out, *(self.state.map[other] for other in
+                                     (next_corner(corner), previous_corner(corner))))
+        for face, (p, q, third) in zip(self.split.faces, self.face_wedges):
             if q == wedge:
-                out += [p, third]
-        return out or [self.state.map[corner] for corner in self.split.kept[:1]]
+                self.add_face(out, *((third, p) if face.forward else (p, third)))
+        if not out.neighbours:
+            for corner in self.split.kept[:1]:
+                out.add_neighbour(self.state.map[corner])
+        return out
+
+    def add_face(self, surroundings, following, preceding):
+        surroundings.add_neighbour(following)
+        surroundings.add_neighbour(preceding)
+        surroundings.add_face(self.position_of(following), self.position_of(preceding))
 
     def record(self, position, parent_position):
         """The record of the split (compact.md 2)."""

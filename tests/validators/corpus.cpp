@@ -14,11 +14,19 @@ std::vector<CorpusFile> valid_corpus() {
     const char* name;
     ProgressiveStrips strips;
   };
-  const Sample samples[] = {
-      {"roof", roof()},       {"symbols", symbols()}, {"faces", numbered_faces()},
-      {"seam", seam()},       {"scene", scene()},     {"growing", growing()},
-      {"compact", compact()}, {"batches", batches()}, {"small", small()},
-      {"welded", welded()},   {"empty", empty()},     {"empty_mesh", empty_mesh()}};
+  const Sample samples[] = {{"roof", roof()},
+                            {"symbols", symbols()},
+                            {"faces", numbered_faces()},
+                            {"seam", seam()},
+                            {"scene", scene()},
+                            {"growing", growing()},
+                            {"compact", compact()},
+                            {"batches", batches()},
+                            {"small", small()},
+                            {"welded", welded()},
+                            {"directions", directions()},
+                            {"empty", empty()},
+                            {"empty_mesh", empty_mesh()}};
   std::vector<CorpusFile> out;
   for (const Sample& sample : samples) {
     out.push_back({std::string(sample.name) + ".pstrip", written(sample.strips)});

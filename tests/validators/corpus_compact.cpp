@@ -38,14 +38,16 @@ Bytes with_first_run(Write write) {
   return settled(strips, [&](ChunkFile& f) {
     const Bytes& payload = f.payload("BASE");
     const ProgressiveMesh& mesh = strips.meshes[0];
-    const Cells cells(ComponentType::f32,
-                      exponent_of_packed(std::to_integer<std::uint64_t>(payload[kBaseHead - 1])),
-                      false);
+    const MeshCells cells{PositionCells(mesh.grid, ComponentType::f32),
+                          {*unpacked(std::to_integer<std::uint64_t>(payload[kBaseHead - 1]),
+                                     mesh.wedge_attributes[0])}};
+    AttributeModels attributes(cells);
     RansReader reader(ByteView(payload).subspan(kBaseHead));
     BaseMesh base;
     const auto entries = static_cast<Index>(mesh.base_map.size());
-    static_cast<void>(BaseCode(reader, base_counts_of(mesh, entries), base).run());
-    MeshState state(mesh, {PositionCells(mesh.grid, ComponentType::f32), {cells}});
+    static_cast<void>(
+        BaseCode(reader, base_counts_of(mesh, cells, entries), cells, attributes, base).run());
+    MeshState state(mesh, cells, std::move(attributes));
     state.start(base);
     RansWriter writer;
     write(writer, state);
@@ -109,6 +111,10 @@ constexpr Case kCases[] = {
     {"PS6002_exponent_of_cells.pstrip",
      [] { return with_base([](Bytes& b) {
             replace(b, kBaseHead - 1, 1, {0xd4, 0x08});
+          }); }},
+    {"PS6002_direction_of_two_components.pstrip",
+     [] { return with_base([](Bytes& b) {
+            replace(b, kBaseHead - 1, 1, {0x88, 0x40});
           }); }},
     {"PS6003_number_longer_than_needed.pstrip",
      [] { return with_base([](Bytes& b) {

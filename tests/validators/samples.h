@@ -43,6 +43,9 @@ ProgressiveStrips small();
 /// Two triangles whose corners are six wedges of five vertices, welded into four.
 ProgressiveStrips welded();
 
+/// The same with normals and tangents on squares of 8 and 5 bits.
+ProgressiveStrips directions();
+
 /// The seam without faces, order and digest.
 ProgressiveStrips bare_seam();
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "codecs/compact/record_batches.h"
+#include "formats/pstrip/payload/compact/octahedron.h"
 #include "tests/validators/samples.h"
 
 namespace pstrips::test {
@@ -63,10 +64,24 @@ CollapseSequence collapses() {
   return out;
 }
 
-}  // namespace
+/// A direction for each wedge; nearly all turn slowly, and some lie on the rim of the square.
+void add_directions(Mesh& mesh, const char* semantic, std::uint8_t count, unsigned bits) {
+  const Octahedron octahedron(bits);
+  Attribute a{semantic, ComponentType::f32, count, false, {}};
+  a.data.resize(a.element_bytes() * mesh.wedge_count());
+  for (Index w = 0; w < mesh.wedge_count(); ++w) {
+    const auto x = static_cast<std::int64_t>(w % kSide), y = static_cast<std::int64_t>(w / kSide);
+    Octahedron::Point at = octahedron.near({4 * x - 10, 3 * y - 8, w % 11 == 0 ? -20 : 5});
+    if (w % 7 == 0) at = octahedron.placed(octahedron.reach(), x);
+    const Octahedron::Vector unit = octahedron.unit(at);
+    for (unsigned k = 0; k < 3; ++k)
+      set_component(a, w, k, std::ldexp(static_cast<double>(unit[k]), -24));
+    if (count == 4) set_component(a, w, 3, x < 3 ? -1 : 1);
+  }
+  mesh.wedge_attributes.push_back(std::move(a));
+}
 
-ProgressiveStrips batches() {
-  const Mesh mesh = waving_square();
+ProgressiveStrips in_batches(const Mesh& mesh) {
   BatchRecording made = record_batches(mesh, triangulate(mesh), collapses());
   ProgressiveStrips strips;
   strips.profile = Profile::compact;
@@ -92,6 +107,17 @@ ProgressiveStrips batches() {
     first += vsplits;
   }
   return strips;
+}
+
+}  // namespace
+
+ProgressiveStrips batches() { return in_batches(waving_square()); }
+
+ProgressiveStrips directions() {
+  Mesh mesh = waving_square();
+  add_directions(mesh, "NORMAL", 3, 8);
+  add_directions(mesh, "TANGENT", 4, 5);
+  return in_batches(mesh);
 }
 
 ProgressiveStrips small() {

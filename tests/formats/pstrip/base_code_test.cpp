@@ -11,16 +11,28 @@
 namespace pstrips {
 namespace {
 
+/// So many columns of integers.
+MeshCells cells_of(unsigned columns) {
+  MeshCells out{PositionCells({.step = 0}, ComponentType::i16), {}};
+  if (columns > 0) out.attributes.emplace_back(Cells(ComponentType::i32, 0, true), columns);
+  return out;
+}
+
 Bytes write(const BaseCounts& counts, BaseMesh mesh) {
   RansWriter writer;
-  EXPECT_TRUE(BaseCode(writer, counts, mesh).run());
+  const MeshCells cells = cells_of(counts.columns);
+  AttributeModels attributes(cells);
+  EXPECT_TRUE(BaseCode(writer, counts, cells, attributes, mesh).run());
   return writer.finish();
 }
 
 Result<BaseMesh> read(const BaseCounts& counts, ByteView bytes) {
   RansReader reader(bytes);
   BaseMesh mesh;
-  if (auto ok = BaseCode(reader, counts, mesh).run(); !ok) return tl::unexpected(ok.error());
+  const MeshCells cells = cells_of(counts.columns);
+  AttributeModels attributes(cells);
+  if (auto ok = BaseCode(reader, counts, cells, attributes, mesh).run(); !ok)
+    return tl::unexpected(ok.error());
   if (!reader.complete()) return fail(ErrorCode::corrupt, "incomplete");
   return mesh;
 }
@@ -142,7 +154,9 @@ TEST(BaseCode, GivesAWellFormedBaseOrAnErrorForAnyBytes) {
       bytes[random() % bytes.size()] ^= std::byte(1u << random() % 8);
     RansReader reader(bytes);
     BaseMesh back;
-    if (!BaseCode(reader, counts, back).run()) continue;
+    const MeshCells cells = cells_of(counts.columns);
+    AttributeModels attributes(cells);
+    if (!BaseCode(reader, counts, cells, attributes, back).run()) continue;
     for (std::size_t c = 0; c < back.corners.size(); ++c) {
       ASSERT_LT(back.corners[c], counts.wedges);
       const std::size_t next = c % 3 == 2 ? c - 2 : c + 1;

@@ -38,7 +38,7 @@ ProgressiveMesh mesh_with(Placement placement, std::uint32_t seed) {
 
 MeshCells cells_of_mesh() {
   return {PositionCells({.step = 0.125f, .exact = false}, ComponentType::f32),
-          {Cells(ComponentType::f64, -10, false), Cells(ComponentType::u32, 9, false)}};
+          {{Cells(ComponentType::f64, -10, false), 3}, {Cells(ComponentType::u32, 9, false), 3}}};
 }
 
 /// Replaces each number by what stands for its cell.
@@ -52,7 +52,8 @@ void forget_fine_bits(ProgressiveMesh& mesh, const MeshCells& cells) {
     }
   };
   forget(mesh.position.data, *cells.positions.cells());
-  for (std::size_t a = 0; a < 2; ++a) forget(mesh.wedge_attributes[a].data, cells.attributes[a]);
+  for (std::size_t a = 0; a < 2; ++a)
+    forget(mesh.wedge_attributes[a].data, cells.attributes[a].own());
 }
 
 TEST(Fine, BringsTheBitsBelowTheCells) {
@@ -107,8 +108,8 @@ TEST(Fine, RefusesAnotherLengthAndBitsBehindTheLast) {
 }
 
 TEST(Fine, IsNotNeededForExactCells) {
-  EXPECT_TRUE(is_exact(
-      {PositionCells({.step = 0.1f}, ComponentType::f32), {Cells(ComponentType::u8, 0, true)}}));
+  EXPECT_TRUE(is_exact({PositionCells({.step = 0.1f}, ComponentType::f32),
+                        {{Cells(ComponentType::u8, 0, true), 1}}}));
 }
 
 }  // namespace

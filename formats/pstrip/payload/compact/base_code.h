@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/fault_list.h"
+#include "core/star_mesh.h"
+#include "formats/pstrip/payload/compact/attribute_code.h"
 #include "formats/pstrip/payload/compact/base_gates.h"
 #include "formats/pstrip/payload/compact/split_models.h"
 
@@ -45,21 +47,26 @@ struct BaseModels {
   BitModel next_wedge;    ///< the first that has not come yet
   BitModel same_group;    ///< as the triangle before
   NumberModel near, far;  ///< positions, at a gate and at none
-  std::vector<NumberModel> column;
 };
 
 /// One base. A triangle at a gate begins with the gate's edge, turned round.
 template <class Coder>
 class BaseCode {
  public:
-  /// mesh  to write; a reader fills it
-  BaseCode(Coder& coder, const BaseCounts& counts, BaseMesh& mesh)
-      : coder_(coder), counts_(counts), mesh_(mesh) {
-    models_.column.resize(counts.columns);
+  /// cells, attributes  of a mesh with counts.columns
+  /// mesh               to write; a reader fills it
+  BaseCode(Coder& coder, const BaseCounts& counts, const MeshCells& cells,
+           AttributeModels& attributes, BaseMesh& mesh)
+      : coder_(coder),
+        counts_(counts),
+        mesh_(mesh),
+        attributes_(coder, cells, attributes, mesh.wedge_cells) {
     is_known_.resize(counts.vertices);
     is_known_wedge_.resize(counts.wedges);
     last_wedge_of_.resize(counts.vertices, kNone);
     triangles_at_.resize(counts.vertices);
+    newest_wedge_of_.resize(counts.vertices, kNone);
+    older_wedge_.resize(counts.wedges, kNone);
     if constexpr (Coder::kReads) {
       mesh.columns = counts.columns;
       mesh.positions.resize(counts.vertices);
@@ -87,13 +94,14 @@ class BaseCode {
       const Index v =
           counts_.single_wedges ? w : coder_.raw(mesh_.wedge_vertex[w], bits_for(counts_.vertices));
       if (v >= counts_.vertices) return broken(Fault::compact_base);
-      code_new_wedge(w, v, last_wedge_ == kNone ? Row{} : row_of(last_wedge_));
+      WedgeSurroundings around;
+      if (last_wedge_ != kNone) around.add_neighbour(last_wedge_);
+      code_new_wedge(w, v, around);
     }
     return {};
   }
 
  private:
-  using Row = std::vector<std::int32_t>;  // a number a column; empty: all zero
   enum Place : unsigned { kAtGate, kGateIsOpen, kAtNone };
   static constexpr unsigned kNext = 0, kNamed = SymbolModel::kSymbols - 1;
 
@@ -222,25 +230,35 @@ class BaseCode {
     Index usual = last_wedge_of_[v];
     if (gate != nullptr && k < 2)
       usual = mesh_.corners[3 * gate->triangle + (gate->from_corner + 1 - k) % 3];
-    Row predicted;
-    if (is_third)
-      predicted = beyond(t, *gate);
-    else if (const Index near = usual != kNone ? usual : last_wedge_; near != kNone)
-      predicted = row_of(near);
-    return code_wedge(mesh_.corners[3 * t + k], v, usual, predicted);
+    return code_wedge(t, k, v, usual, gate);
   }
 
   Index opposite(const BaseGate& gate) const {
     return vertex(gate.triangle, (gate.from_corner + 2) % 3);
   }
 
-  /// The parallelogram of wedges.
-  Row beyond(Index t, const BaseGate& gate) const {
-    const Index far = mesh_.corners[3 * gate.triangle + (gate.from_corner + 2) % 3];
-    Row out = row_of(mesh_.corners[3 * t]);
-    for (unsigned c = 0; c < counts_.columns; ++c)
-      out[c] += mesh_.wedge_cells[column_of(mesh_.corners[3 * t + 1], c)] -
-                mesh_.wedge_cells[column_of(far, c)];
+  /// What is there already of the triangle, and of the one behind its gate if that shows the same
+  /// wedges.
+  WedgeSurroundings surroundings(Index t, unsigned k, Index v, Index usual,
+                                 const BaseGate* gate) const {
+    WedgeSurroundings out;
+    const GridPoint at = mesh_.positions[v];
+    const Index* const corner = mesh_.corners.data() + 3 * t;
+    for (unsigned i = 0; i < k; ++i) out.add_neighbour(corner[i]);
+    if (k == 2)
+      out.add_face(mesh_.positions[vertex(t, 0)] - at, mesh_.positions[vertex(t, 1)] - at);
+    if (k == 2 && gate != nullptr) {
+      const auto behind = [&](unsigned i) { return (gate->from_corner + i) % 3; };
+      const Index* const other = mesh_.corners.data() + 3 * gate->triangle;
+      if (other[behind(0)] == corner[1] && other[behind(1)] == corner[0]) {
+        out.add_neighbour(other[behind(2)]);
+        const GridPoint from = mesh_.positions[gate->from];
+        out.add_face(mesh_.positions[gate->to] - from, mesh_.positions[opposite(*gate)] - from);
+      }
+    }
+    if (const Index near = usual != kNone ? usual : last_wedge_;
+        out.neighbours().empty() && near != kNone)
+      out.add_neighbour(near);
     return out;
   }
 
@@ -262,11 +280,12 @@ class BaseCode {
   }
 
   /// usual  a wedge of v, or kNone
-  Result<void> code_wedge(Index& wedge, Index v, Index usual, const Row& predicted) {
+  Result<void> code_wedge(Index t, unsigned k, Index v, Index usual, const BaseGate* gate) {
+    Index& wedge = mesh_.corners[3 * t + k];
     coder_.part(Part::base_wedges);
     if (counts_.single_wedges) {
       wedge = v;
-      if (!is_known_wedge_[v]) code_new_wedge(v, v, predicted);
+      if (!is_known_wedge_[v]) code_new_wedge(v, v, surroundings(t, k, v, usual, gate));
       return {};
     }
     if (usual != kNone && coder_.bit(models_.usual_wedge, wedge == usual)) {
@@ -279,21 +298,35 @@ class BaseCode {
       wedge = coder_.raw(wedge, bits_for(counts_.wedges));
     if (wedge >= counts_.wedges) return broken(Fault::compact_base);
     if (!is_known_wedge_[wedge])
-      code_new_wedge(wedge, v, predicted);
+      code_new_wedge(wedge, v, surroundings(t, k, v, usual, gate));
     else if (mesh_.wedge_vertex[wedge] != v)
       return broken(Fault::compact_base);
     last_wedge_of_[v] = wedge;
     return {};
   }
 
-  void code_new_wedge(Index wedge, Index v, const Row& predicted) {
+  void code_new_wedge(Index wedge, Index v, const WedgeSurroundings& around) {
     mesh_.wedge_vertex[wedge] = v;
-    for (unsigned c = 0; c < counts_.columns; ++c)
-      code_number(models_.column[c], predicted.empty() ? 0 : predicted[c],
-                  mesh_.wedge_cells[column_of(wedge, c)]);
+    if (counts_.columns > 0) code_attributes(wedge, v, around);
+    older_wedge_[wedge] = newest_wedge_of_[v];
+    newest_wedge_of_[v] = wedge;
     is_known_wedge_[wedge] = true;
     while (next_wedge_ < counts_.wedges && is_known_wedge_[next_wedge_]) ++next_wedge_;
     last_wedge_ = last_wedge_of_[v] = wedge;
+  }
+
+  void code_attributes(Index wedge, Index v, const WedgeSurroundings& around) {
+    constexpr std::size_t kMostLooks = 64;
+    siblings_.clear();
+    for (Index w = newest_wedge_of_[v]; w != kNone && siblings_.size() < kMostLooks;
+         w = older_wedge_[w])
+      siblings_.push_back(w);
+    std::array<GridPoint, PlaneFit::kMost> arms;
+    std::size_t count = 0;
+    for (const Index w : around.neighbours())
+      arms[count++] = mesh_.positions[mesh_.wedge_vertex[w]] - mesh_.positions[v];
+    attributes_.code(wedge, around, {arms.data(), count}, siblings_,
+                     mesh_.wedge_cells.data() + std::size_t{wedge} * counts_.columns);
   }
 
   void code_group(Index t) {
@@ -307,22 +340,17 @@ class BaseCode {
       group = std::min(coder_.raw(group, bits_for(counts_.groups - 1)), counts_.groups - 1);
   }
 
-  std::size_t column_of(Index wedge, unsigned c) const {
-    return std::size_t{wedge} * counts_.columns + c;
-  }
-  Row row_of(Index wedge) const {
-    const auto first = mesh_.wedge_cells.begin() + static_cast<std::ptrdiff_t>(column_of(wedge, 0));
-    return {first, first + static_cast<std::ptrdiff_t>(counts_.columns)};
-  }
-
   Coder& coder_;
   const BaseCounts counts_;
   BaseMesh& mesh_;
   BaseModels models_;
   BaseGates gates_;
   std::vector<bool> is_known_, is_known_wedge_;
-  std::vector<Index> last_wedge_of_;  // a vertex each; kNone: it has none yet
-  std::vector<Index> triangles_at_;   // likewise, so far
+  std::vector<Index> last_wedge_of_;                  // a vertex each; kNone: it has none yet
+  std::vector<Index> triangles_at_;                   // likewise, so far
+  std::vector<Index> newest_wedge_of_, older_wedge_;  // of a vertex, in the order of coming
+  std::vector<Index> siblings_;                       // scratch: those of one vertex
+  AttributeCode<Coder> attributes_;
   Index next_vertex_ = 0, next_wedge_ = 0, last_wedge_ = kNone;
   GridPoint last_position_;
   std::array<std::int64_t, 2> misses_{};  // of the guesses, so that old ones fade

@@ -41,21 +41,42 @@ constexpr int exponent_of_packed(std::uint64_t packed) {
 }
 
 inline constexpr unsigned kPackedCellsBits = 14;
+/// What is added to the bits of an octahedron, so that it is told from an exponent.
+inline constexpr std::uint64_t kPackedOctahedron = 1u << 13;
+
+inline std::uint64_t packed(const AttributeCells& cells) {
+  if (cells.octahedron()) return kPackedOctahedron + cells.octahedron()->bits();
+  return packed_cells(cells.own().exponent(), cells.own().exact());
+}
+/// Nothing if the attribute has no such cells.
+inline std::optional<AttributeCells> unpacked(std::uint64_t packed, const Attribute& format) {
+  if (packed >= kPackedOctahedron) {
+    const std::uint64_t bits = packed - kPackedOctahedron;
+    if (!AttributeCells::can_be_directions(format) || bits < Octahedron::kMinBits ||
+        bits > Octahedron::kMaxBits)
+      return std::nullopt;
+    return AttributeCells(Octahedron(static_cast<unsigned>(bits)), format.count);
+  }
+  const int exponent = exponent_of_packed(packed);
+  if (!Cells::is_valid(format.type, exponent)) return std::nullopt;
+  return AttributeCells(Cells(format.type, exponent, (packed & 1) != 0), format.count);
+}
 
 /// As many as a mesh may have, so that what is learned of each stays small.
-inline constexpr unsigned kMaxColumns = 1024;
+inline constexpr unsigned kMaxComponents = 1024;
 
-inline unsigned columns_of(const ProgressiveMesh& mesh) {
-  unsigned columns = 0;
-  for (const Attribute& a : mesh.wedge_attributes) columns += a.count;
-  return columns;
+inline unsigned components_of(const ProgressiveMesh& mesh) {
+  unsigned components = 0;
+  for (const Attribute& a : mesh.wedge_attributes) components += a.count;
+  return components;
 }
 
 /// What both sides know of a base before it.
-inline BaseCounts base_counts_of(const ProgressiveMesh& mesh, Index map_entries) {
+inline BaseCounts base_counts_of(const ProgressiveMesh& mesh, const MeshCells& cells,
+                                 Index map_entries) {
   return {mesh.base_vertices, mesh.base_wedges,
           map_entries / 3,    static_cast<Index>(mesh.groups.size()),
-          columns_of(mesh),   mesh.single_wedges};
+          columns_of(cells),  mesh.single_wedges};
 }
 
 /// Whether packets of this size are worth the pass over the mesh that each of them costs: a decoder

@@ -12,9 +12,6 @@
 namespace pstrips::inline formats {
 namespace {
 
-/// As finely as attributes are told apart before FINE says the rest.
-constexpr unsigned kAttributeBits = 12;
-
 tl::unexpected<Error> cannot(std::string message, std::string path) {
   return fail(ErrorCode::bad_argument, std::move(message), kNoOffset, std::move(path));
 }
@@ -23,7 +20,7 @@ tl::unexpected<Error> cannot(std::string message, std::string path) {
 class CellsWriter {
  public:
   CellsWriter(const ProgressiveMesh& mesh, const MeshCells& cells) : mesh_(mesh), cells_(cells) {
-    row_.resize(columns_of(mesh));
+    row_.resize(columns_of(cells));
   }
 
   /// The i-th of a list of positions; nothing when it is not on the grid.
@@ -42,9 +39,10 @@ class CellsWriter {
 
   const std::int32_t* row(Index wedge) {
     std::size_t column = 0;
-    for (std::size_t i = 0; i < mesh_.wedge_attributes.size(); ++i)
-      for (std::size_t k = 0; k < mesh_.wedge_attributes[i].count; ++k)
-        row_[column++] = cells_.attributes[i].cell_of(bits_of(mesh_.wedge_attributes[i], wedge, k));
+    for (std::size_t i = 0; i < mesh_.wedge_attributes.size(); ++i) {
+      cells_.attributes[i].cells_of(mesh_.wedge_attributes[i], wedge, row_.data() + column);
+      column += cells_.attributes[i].columns();
+    }
     return row_.data();
   }
 
@@ -132,7 +130,7 @@ class MeshWriter {
 
   static bool fits(const ProgressiveMesh& mesh) {
     return mesh.encoding == MapEncoding::triangles && mesh.position.count == 3 &&
-           columns_of(mesh) <= kMaxColumns &&
+           components_of(mesh) <= kMaxComponents &&
            PositionCells::is_valid(mesh.grid, mesh.position.type);
   }
 
@@ -141,12 +139,6 @@ class MeshWriter {
   Result<Bytes> write_packet(const Packet& packet);
 
  private:
-  static MeshCells cells_of(const ProgressiveMesh& mesh) {
-    MeshCells cells{PositionCells(mesh.grid, mesh.position.type), {}};
-    for (const Attribute& a : mesh.wedge_attributes)
-      cells.attributes.push_back(Cells::choose(a, kAttributeBits));
-    return cells;
-  }
   std::string path(std::string_view list, std::size_t i) const {
     return "/meshes/" + std::to_string(index_) + std::string(list) + std::to_string(i);
   }
@@ -160,7 +152,8 @@ class MeshWriter {
 };
 
 Result<Bytes> MeshWriter::write_base() {
-  const BaseCounts counts = base_counts_of(mesh_, static_cast<Index>(mesh_.base_map.size()));
+  const BaseCounts counts =
+      base_counts_of(mesh_, state_.cells, static_cast<Index>(mesh_.base_map.size()));
   CellsWriter numbers(mesh_, state_.cells);
   BaseMesh base;
   base.columns = counts.columns;
@@ -181,9 +174,10 @@ Result<Bytes> MeshWriter::write_base() {
   Bytes out;
   for (const Index number : {index_, counts.vertices, counts.wedges, 3 * counts.triangles})
     put_varint(out, number);
-  for (const Cells& cells : state_.cells.attributes)
-    put_varint(out, packed_cells(cells.exponent(), cells.exact()));
-  if (const auto ok = BaseCode<RansWriter>(coder_, counts, base).run(); !ok)
+  for (const AttributeCells& cells : state_.cells.attributes) put_varint(out, packed(cells));
+  if (const auto ok =
+          BaseCode<RansWriter>(coder_, counts, state_.cells, state_.attributes, base).run();
+      !ok)
     return cannot(ok.error().message, path("/base_map/", 0));
   const Bytes run = coder_.finish();
   out.insert(out.end(), run.begin(), run.end());

@@ -22,6 +22,7 @@ namespace pstrips::inline formats {
 struct CompactMesh {
   MeshCells cells;
   BaseMesh base;                     ///< until the first packet
+  AttributeModels attributes;        ///< likewise
   std::unique_ptr<MeshState> state;  ///< from then on until all vertices are there
   std::uint64_t visited = 0;         ///< vertices, by packets
 };
@@ -122,14 +123,15 @@ template <class Tally>
 Result<MeshCells> CompactReader<Tally>::read_cells(ReadIo& io, const ProgressiveMesh& mesh) {
   if (mesh.groups.empty()) return broken(Fault::group_missing);
   if (mesh.encoding != MapEncoding::triangles || mesh.position.count != 3 ||
-      columns_of(mesh) > kMaxColumns || !PositionCells::is_valid(mesh.grid, mesh.position.type))
+      components_of(mesh) > kMaxComponents ||
+      !PositionCells::is_valid(mesh.grid, mesh.position.type))
     return broken(Fault::compact_mesh);
   MeshCells cells{PositionCells(mesh.grid, mesh.position.type), {}};
   for (const Attribute& a : mesh.wedge_attributes) {
     const std::uint64_t packed = take_varint(io, kPackedCellsBits);
-    const int exponent = exponent_of_packed(packed);
-    if (!Cells::is_valid(a.type, exponent)) return broken(Fault::compact_cells);
-    cells.attributes.emplace_back(a.type, exponent, (packed & 1) != 0);
+    const std::optional<AttributeCells> of_attribute = unpacked(packed, a);
+    if (!of_attribute) return broken(Fault::compact_cells);
+    cells.attributes.push_back(*of_attribute);
   }
   return cells;
 }
@@ -144,8 +146,9 @@ Result<void> CompactReader<Tally>::read_base(ReadIo& io, const BaseHead& head,
     return broken(Fault::base_counts);
   Coder coder(io.in().take(io.in().remaining()), tally_);
   BaseMesh base;
-  const BaseCounts counts = base_counts_of(mesh, head.map_entries);
-  if (auto ok = BaseCode<Coder>(coder, counts, base).run(); !ok) return ok;
+  AttributeModels attributes(*cells);
+  const BaseCounts counts = base_counts_of(mesh, *cells, head.map_entries);
+  if (auto ok = BaseCode<Coder>(coder, counts, *cells, attributes, base).run(); !ok) return ok;
   if (!coder.complete()) return broken(Fault::compact_run);
 
   const CellsReader numbers(*cells);
@@ -155,14 +158,14 @@ Result<void> CompactReader<Tally>::read_base(ReadIo& io, const BaseHead& head,
   if (!mesh.single_wedges) mesh.base_wedge_vertex = base.wedge_vertex;
   mesh.base_map = base.corners;
   if (has_triangle_groups(mesh)) mesh.triangle_group = base.group;
-  meshes_.push_back({std::move(*cells), std::move(base), nullptr, 0});
+  meshes_.push_back({std::move(*cells), std::move(base), std::move(attributes), nullptr, 0});
   return {};
 }
 
 template <class Tally>
 MeshState& CompactReader<Tally>::state_of(CompactMesh& reading, const ProgressiveMesh& mesh) {
   if (reading.state == nullptr) {
-    reading.state = std::make_unique<MeshState>(mesh, reading.cells);
+    reading.state = std::make_unique<MeshState>(mesh, reading.cells, std::move(reading.attributes));
     reading.state->start(reading.base);
     reading.base = {};
   }

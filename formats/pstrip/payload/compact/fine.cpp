@@ -44,7 +44,7 @@ void for_each_number(Mesh& mesh, const MeshCells& cells, Visit&& visit) {
     });
   for (std::size_t a = 0; a < mesh.wedge_attributes.size(); ++a) {
     auto& attribute = mesh.wedge_attributes[a];
-    const Cells& of_attribute = cells.attributes[a];
+    const Cells& of_attribute = cells.attributes[a].own();
     if (of_attribute.exact()) continue;
     const std::size_t size = size_of(attribute.type);
     for (std::size_t at = 0; at + size <= attribute.data.size(); at += size)
@@ -68,10 +68,18 @@ std::uint64_t bits_below(const ProgressiveMesh& mesh, const MeshCells& cells) {
 
 }  // namespace
 
+MeshCells cells_of(const ProgressiveMesh& mesh) {
+  constexpr unsigned kAttributeBits = 12;
+  MeshCells cells{PositionCells(mesh.grid, mesh.position.type), {}};
+  for (const Attribute& a : mesh.wedge_attributes)
+    cells.attributes.push_back(AttributeCells::choose(a, kAttributeBits));
+  return cells;
+}
+
 bool is_exact(const MeshCells& cells) {
   const auto& of_positions = cells.positions.cells();
   return (!of_positions || of_positions->exact()) &&
-         std::ranges::all_of(cells.attributes, &Cells::exact);
+         std::ranges::all_of(cells.attributes, &AttributeCells::exact);
 }
 
 std::uint64_t fine_bytes(const ProgressiveMesh& mesh, const MeshCells& cells) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-#include "formats/pstrip/payload/compact/cells.h"
+#include "formats/pstrip/payload/compact/attribute_cells.h"
 
 // For formats/pstrip/payload/compact: the payload of FINE, the bits below the cells. Vertices
 // first, then each attribute, component by component, lowest bit first, without gaps.
@@ -14,8 +14,19 @@ namespace pstrips::inline formats {
 /// How the numbers of a mesh lie in cells.
 struct MeshCells {
   PositionCells positions;
-  std::vector<Cells> attributes;  ///< one a wedge attribute
+  std::vector<AttributeCells> attributes;  ///< one a wedge attribute
 };
+
+/// The cells that a mesh is written with: those of its grid; of attributes the coarsest that are
+/// exact, else some of 12 bits. O(wedges)
+MeshCells cells_of(const ProgressiveMesh& mesh);
+
+/// Numbers that packets code of a wedge.
+inline unsigned columns_of(const MeshCells& cells) {
+  unsigned columns = 0;
+  for (const AttributeCells& a : cells.attributes) columns += a.columns();
+  return columns;
+}
 
 /// Nothing is below the cells: the mesh needs no FINE.
 bool is_exact(const MeshCells& cells);

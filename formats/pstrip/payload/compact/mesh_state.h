@@ -12,17 +12,9 @@
 
 namespace pstrips::inline formats {
 
-/// What is learned of one attribute as a whole.
-struct AttributeModels {
-  unsigned columns = 0;
-  std::array<BitModel, 2> same;  ///< as another wedge of the vertex has it; whether the last was
-  bool was_same = false;
-};
-
 /// All that is learned while the wedges of a mesh go by.
 struct WedgeModels {
   static constexpr unsigned kCounts = 4;  ///< of wedges that are split; more count as the last
-  static constexpr unsigned kSizes = 26;  ///< of differences of cells, in bits
 
   std::array<BitModel, kCounts> regular;
   std::array<std::array<BitModel, 2>, kCounts> reassigned;  ///< one corner shows it, several
@@ -37,34 +29,30 @@ struct WedgeModels {
   BitModel same_group;
   SymbolModel isolated_wedges;
   std::array<NumberModel, 3> isolated_position;
-  std::vector<AttributeModels> attributes;
-  /// Residuals by how far apart the neighbours are.
-  std::vector<std::array<NumberModel, kSizes>> column;
 };
 
 /// A mesh between two packets, as both sides of a file know it.
 struct MeshState {
-  MeshState(const ProgressiveMesh& mesh, MeshCells how)
+  MeshState(const ProgressiveMesh& mesh, const MeshCells& how)
+      : MeshState(mesh, how, AttributeModels(how)) {}
+  /// learned  from the base
+  MeshState(const ProgressiveMesh& mesh, MeshCells how, AttributeModels learned)
       : splits(mesh.placement, mesh.effort),
         cells(std::move(how)),
         single_wedges(mesh.single_wedges),
         groups(static_cast<Index>(mesh.groups.size())),
         max_vertices(mesh.vertices),
         max_wedges(mesh.wedges),
-        max_faces(static_cast<Index>(full_map_entries(mesh) / 3)) {
-    for (const Attribute& a : mesh.wedge_attributes) {
-      columns += a.count;
-      models.attributes.push_back({.columns = a.count, .same = {}});
-    }
-    models.column.resize(columns);
-  }
+        max_faces(static_cast<Index>(full_map_entries(mesh) / 3)),
+        columns(columns_of(cells)),
+        attributes(std::move(learned)) {}
 
   SplitState splits;
   MeshCells cells;
   bool single_wedges;
   Index groups;
   Index max_vertices, max_wedges, max_faces;  ///< at full resolution
-  unsigned columns = 0;                       ///< components of all attributes together
+  unsigned columns;                           ///< cells of a wedge
   Index wedges = 0;
   Index faces = 0;                        ///< whose wedges are known
   std::vector<Index> corner_wedge;        ///< of each corner; empty with single wedges
@@ -73,6 +61,7 @@ struct MeshState {
   std::vector<Index> face_group;          ///< empty with one group
   GridPoint last_isolated;
   WedgeModels models;
+  AttributeModels attributes;
   std::vector<Index> slot;  ///< scratch, a wedge each, to be checked before it is believed
 
   const StarMesh& mesh() const { return splits.mesh; }

@@ -6,6 +6,7 @@
 
 #include "core/fault_list.h"
 #include "formats/pstrip/payload/compact/mesh_state.h"
+#include "formats/pstrip/payload/compact/new_wedges.h"
 #include "formats/pstrip/payload/compact/split_batch.h"
 #include "formats/pstrip/payload/compact/wedge_code.h"
 
@@ -13,93 +14,6 @@
 // [spec/compact.md §6, §7]
 
 namespace pstrips::inline formats {
-
-/// The attributes of the new wedges of a record.
-template <class Coder>
-class AttributeCode {
- public:
-  AttributeCode(Coder& coder, MeshState& state) : coder_(coder), state_(state) {}
-
-  /// Starts on the wedges from `first` on.
-  void start(Index first) {
-    first_ = first;
-    neighbours_.assign(std::size_t{state_.wedges - first} * state_.columns, {});
-    counts_.assign(state_.wedges - first, 0);
-  }
-  /// What is coded of a wedge is expected to lie in the middle of those that are added.
-  void add(Index wedge, Index neighbour) {
-    const std::int32_t* const cells = state_.wedge_cells.data() + place_of(neighbour);
-    Neighbours* const all = neighbours_.data() + place_of(wedge - first_);
-    for (unsigned c = 0; c < state_.columns; ++c) {
-      all[c].sum += cells[c];
-      all[c].least = std::min(all[c].least, cells[c]);
-      all[c].most = std::max(all[c].most, cells[c]);
-    }
-    ++counts_[wedge - first_];
-  }
-  /// A corner of a vertex that is new: the others of its face count.
-  void add_face(Index corner) {
-    const Index wedge = state_.wedge_of(corner);
-    if (wedge < first_) return;
-    add(wedge, state_.wedge_of(StarMesh::next_in_face(corner)));
-    add(wedge, state_.wedge_of(StarMesh::previous_in_face(corner)));
-  }
-
-  /// usual    a wedge where there is nothing else to go by, or kNone
-  /// sibling  a wedge that the vertex has already, or kNone
-  template <class CellsOf>
-  void code(Index usual, Index sibling, CellsOf&& cells_of) {
-    state_.wedge_cells.resize(place_of(state_.wedges));
-    for (Index wedge = first_; wedge < state_.wedges; sibling = wedge++) {
-      if (counts_[wedge - first_] == 0 && usual != kNone) add(wedge, usual);
-      code_wedge(wedge, sibling, cells_of(wedge));
-    }
-  }
-
- private:
-  /// A component of the wedges that one is expected among.
-  struct Neighbours {
-    std::int64_t sum = 0;
-    std::int32_t least = kMaxCell, most = -kMaxCell;
-  };
-
-  std::size_t place_of(Index wedge) const { return std::size_t{wedge} * state_.columns; }
-
-  /// wanted  `columns` cells to write; null for a reader
-  void code_wedge(Index wedge, Index sibling, const std::int32_t* wanted) {
-    std::int32_t* const cells = state_.wedge_cells.data() + place_of(wedge);
-    const std::int32_t* const known =
-        sibling == kNone ? nullptr : state_.wedge_cells.data() + place_of(sibling);
-    unsigned column = 0;
-    for (AttributeModels& models : state_.models.attributes) {
-      const unsigned end = column + models.columns;
-      const bool same =
-          known != nullptr &&
-          (models.was_same = coder_.bit(
-               models.same[models.was_same ? 1 : 0],
-               wanted != nullptr && std::equal(known + column, known + end, wanted + column)));
-      for (; column < end; ++column)
-        cells[column] = same ? known[column] : code_component(wedge, column, wanted);
-    }
-  }
-
-  std::int32_t code_component(Index wedge, unsigned column, const std::int32_t* wanted) {
-    const Neighbours& all = neighbours_[place_of(wedge - first_) + column];
-    const Index count = counts_[wedge - first_];
-    const auto predicted = count == 0 ? 0 : static_cast<std::int32_t>(all.sum / count);
-    const auto spread = count == 0 ? 0u : static_cast<std::uint32_t>(all.most - all.least);
-    NumberModel& model = state_.models.column[column][std::bit_width(spread)];
-    const std::int32_t residual =
-        model.code(coder_, wanted != nullptr ? wanted[column] - predicted : 0);
-    return std::clamp(predicted + residual, -kMaxCell, kMaxCell);
-  }
-
-  Coder& coder_;
-  MeshState& state_;
-  Index first_ = 0;
-  std::vector<Neighbours> neighbours_;  // columns for each new wedge
-  std::vector<Index> counts_;
-};
 
 /// The records of one packet.
 ///
@@ -192,8 +106,7 @@ class PacketCode {
       const Index corner = 3 * state_.faces - static_cast<Index>(record.corners.size()) + at;
       if (state_.mesh().vertex_of(corner) == added) attributes_.add_face(corner);
     }
-    attributes_.code(record.kept.empty() ? kNone : state_.wedge_of(record.kept.front()),
-                     record.reassigned.empty() ? kNone : record.reassigned.back(),
+    attributes_.code(added, record.kept.empty() ? kNone : state_.wedge_of(record.kept.front()),
                      [&](Index wedge) { return records_.cells_of(wedge); });
   }
 
@@ -222,7 +135,7 @@ class PacketCode {
       const Index first = state_.wedges - record.new_wedges;
       coder_.part(Part::attributes);
       attributes_.start(first);
-      attributes_.code(first > 0 ? first - 1 : kNone, kNone,
+      attributes_.code(added, first > 0 ? first - 1 : kNone,
                        [&](Index wedge) { return records_.cells_of(wedge); });
     }
     records_.take(added, added);
@@ -232,7 +145,7 @@ class PacketCode {
   Coder& coder_;
   MeshState& state_;
   Records& records_;
-  AttributeCode<Coder> attributes_;
+  NewWedges<Coder> attributes_;
 };
 
 }  // namespace pstrips::inline formats

@@ -100,9 +100,8 @@ class CellsReader {
       const std::size_t first = a.elements(), n = cells.size() / columns;
       a.data.resize(a.data.size() + n * a.element_bytes());
       for (std::size_t e = 0; e < n; ++e)
-        for (std::size_t k = 0; k < a.count; ++k)
-          set_bits(a, first + e, k, cells_.attributes[i].middle(cells[e * columns + column + k]));
-      column += a.count;
+        cells_.attributes[i].store(&cells[e * columns + column], a, first + e);
+      column += cells_.attributes[i].columns();
     }
   }
 
