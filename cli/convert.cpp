@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/attribute_names.h"
+#include "cli/bits_report.h"
 #include "cli/command.h"
 #include "cli/conversion_report.h"
 #include "cli/number_options.h"
@@ -14,6 +15,7 @@
 #include "cli/report.h"
 #include "cli/table.h"
 #include "codecs/weld/weld.h"
+#include "converters/lossless_cost.h"
 #include "converters/placement.h"
 #include "core/parallel.h"
 
@@ -42,6 +44,7 @@ struct Conversion {
   EncodeOptions encode;
   ProgressBar bar{io};
   std::vector<SimplifyReport> simplified{};
+  std::uint64_t below_cells = 0;  // see bytes_below_cells()
   /// Before the writer saw the model; `read` is what the reader left out, which was said.
   std::vector<std::string> converted{}, dropped{}, read{};
   std::vector<KindCount> kept{};
@@ -78,15 +81,6 @@ void report_simplification(const Streams& io, const std::vector<SimplifyReport>&
     io.err << fmt::format("  collapses put off: {}\n", counts_of(r.refused));
     io.err << fmt::format("  taken nevertheless: {}\n", counts_of(r.forced));
   }
-}
-
-// How far quantization has moved vertices.
-void report_grid(const Conversion& job) {
-  double moved = 0;
-  for (const SimplifyReport& r : job.simplified) moved = std::max(moved, r.moved);
-  if (job.io.quiet || job.encode.position_bits == 0) return;
-  job.io.err << fmt::format("pstrips: positions moved by at most {:.3g} to a grid of {} bits\n",
-                            moved, job.encode.position_bits);
 }
 
 // What is unusual about the model as levels see it.
@@ -255,7 +249,8 @@ ExitCode finish(const Conversion& job, std::uint64_t input_bytes, const Result<S
                fmt::format("{} ({}) ->", escaped(options.input), byte_size(input_bytes)));
   if (options.verbose || !options.output.is_stdout())
     report_simplification(io, job.simplified, options.verbose);
-  if (!options.output.is_stdout()) report_grid(job);
+  if (!options.output.is_stdout())
+    report_bits(io, job.encode, job.simplified, job.below_cells, saved->files.front().bytes);
   return kOk;
 }
 
@@ -272,6 +267,7 @@ ExitCode convert(Conversion& job, LoadedFile file) {
   if (!placed) return report(job.io, placed.error(), options.input);
   const auto strips = strips_of(job, *placed);
   if (!strips) return report(job.io, strips.error(), options.input);
+  if (job.target == FileFormat::pstrip) job.below_cells = bytes_below_cells(*strips);
   return finish(job, bytes, save(*strips, options.output.path, job.target, save_options(job)));
 }
 

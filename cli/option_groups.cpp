@@ -272,9 +272,25 @@ void EncodeOptionsGroup::add_profile(CLI::App& app) {
                                   "share, 8 to 24"));
   takes_count(bits, kMinPositionBits, kMaxPositionBits);
   auto* exact = add(app.add_flag("--lossless", lossless,
-                                 "Compact: keep positions bit for bit; so it is without "
-                                 "--position-bits"));
+                                 "Compact: keep every number bit for bit; so it is without the "
+                                 "options for bits"));
   exact->excludes(bits);
+  of_compact = {bits, exact};
+  const auto add_bits = [&](const char* name, unsigned& number, unsigned most, const char* what) {
+    auto* option = add(app.add_option(name, number, what));
+    takes_count(option, AttributeBits::kMin, most);
+    exact->excludes(option);
+    of_compact.push_back(option);
+  };
+  AttributeBits& of = options.attribute_bits;
+  add_bits("--normal-bits", of.normal, AttributeBits::kMaxDirection,
+           "Compact: normals and tangents as points of a square of 2^N - 1 steps, 4 to 16");
+  add_bits("--uv-bits", of.texture, AttributeBits::kMax,
+           "Compact: texture coordinates as 2^N steps or a few more that are a power of two, "
+           "4 to 23");
+  add_bits("--color-bits", of.color, AttributeBits::kMax, "Compact: colours likewise");
+  add_bits("--attribute-bits", of.other, AttributeBits::kMax,
+           "Compact: other attributes likewise, such as WEIGHTS_0");
   auto* by = add(app.add_option("--order", order,
                                 "Compact: coarsen by error alone, or while hardly anybody sees "
                                 "which vertex goes by bits as well"));
@@ -282,7 +298,7 @@ void EncodeOptionsGroup::add_profile(CLI::App& app) {
   auto* how = add(app.add_option("--effort", effort,
                                  "Compact: quick to decode, or smaller and several times slower"));
   takes_one_of(how->capture_default_str(), {"fast", "small"});
-  of_compact = {bits, exact, by, how};
+  of_compact.insert(of_compact.end(), {by, how});
 }
 
 std::string EncodeOptionsGroup::first_given() const {

@@ -212,6 +212,7 @@ class Encoder {
     return out;
   }
   bool is_on_grid() const { return options_.position_bits > 0; }
+  bool is_quantized() const { return is_on_grid() || options_.attribute_bits.any(); }
 
   Result<void> choose_grid() {
     if (is_on_grid() && (!is_compact() || options_.position_bits < kMinPositionBits ||
@@ -219,7 +220,13 @@ class Encoder {
       return fail(ErrorCode::bad_argument,
                   is_compact() ? "position bits are 8 to 24"
                                : "only the compact profile puts positions on a grid");
+    const AttributeBits& bits = options_.attribute_bits;
+    if (bits.any() && (!is_compact() || !bits.is_valid()))
+      return fail(ErrorCode::bad_argument,
+                  is_compact() ? "attribute bits are 4 to 23, of normals to 16"
+                               : "only the compact profile puts attributes on a grid");
     if (!is_compact()) return {};
+    attribute_grids_ = AttributeGrids(model_, bits);
     const auto grid = position_grid(model_, options_.position_bits);
     if (!grid) return tl::unexpected(grid.error());
     grid_ = *grid;
@@ -276,11 +283,12 @@ class Encoder {
   Result<Encoded> encode_mesh(Index m, const CollapseSequence* given, unsigned threads) {
     Mesh on_grid;
     SimplifyReport report;
-    if (is_on_grid()) {
+    if (is_quantized()) {
       on_grid = model_.meshes[m];
-      report.moved = move_to_grid(on_grid, grid_);
+      if (is_on_grid()) report.moved = move_to_grid(on_grid, grid_);
+      report.quantized = attribute_grids_.apply(on_grid);
     }
-    const WeldedMesh welded(is_on_grid() ? on_grid : model_.meshes[m], model_.meshes[m],
+    const WeldedMesh welded(is_quantized() ? on_grid : model_.meshes[m], model_.meshes[m],
                             given ? std::nullopt : options_.weld);
     const Mesh& mesh = welded.mesh();
     const Triangulation triangles = triangulate(mesh);
@@ -472,6 +480,7 @@ class Encoder {
   const NamedStripifier* stripifier_ = nullptr;
   double share_ = 0;
   const bool keeps_order_;
+  AttributeGrids attribute_grids_;
   PositionGrid grid_;  // of positions that are floats, in the compact profile
 };
 

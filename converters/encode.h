@@ -7,6 +7,7 @@
 
 #include "codecs/simplify/simplify.h"
 #include "codecs/stripify/stripify.h"
+#include "converters/attribute_grid.h"
 #include "core/limits.h"
 #include "core/progress.h"
 #include "core/progressive_strips.h"
@@ -35,6 +36,8 @@ struct EncodeOptions {
   /// With the compact profile: positions are moved to a grid of so many bits, see position_grid().
   /// 0: they stay as they are.
   unsigned position_bits = 0;
+  /// With the compact profile: wedge attributes are moved to grids, see AttributeGrids.
+  AttributeBits attribute_bits{};
   /// With the compact profile: bits makes files smaller and levels a little worse.
   CollapseOrder order = CollapseOrder::error;
   /// With the compact profile: small takes fewer bits and decodes several times as slowly.
@@ -79,6 +82,7 @@ struct SimplifyReport {
   SimplifyStop stop = SimplifyStop::target;
   ConstraintCounts refused, forced;
   double moved = 0;  ///< how far, at most, a vertex was moved to the grid, model units
+  std::vector<QuantizedAttribute> quantized;
 };
 
 /// Turns a model into progressive strips: triangulate, stripify, simplify, record, pack.

@@ -43,7 +43,14 @@ CASES = [
     (["convert", "tube.obj", "out.pstrip", "--base", "9", "--base-error", "1"], 1, "", "--base"),
     *((["convert", "tube.obj", "out.pstrip", "--profile", "compact", "--position-bits", bits], 1, "",
        f"{bits} is not a whole number from 8 to 24") for bits in ("7", "25", "x")),
-    (["convert", "tube.obj", "out.pstrip", "--position-bits", "9", "--lossless"], 1, "", "excludes"),
+    *((["convert", "tube.obj", "out.pstrip", "--profile", "compact", option, bits], 1, "",
+       f"{bits} is not a whole number from 4 to {most}")
+      for option, most in (("--normal-bits", 16), ("--uv-bits", 23), ("--color-bits", 23),
+                           ("--attribute-bits", 23))
+      for bits in ("3", str(most + 1), "x")),
+    *((["convert", "tube.obj", "out.pstrip", option, "9", "--lossless"], 1, "", "excludes")
+      for option in ("--position-bits", "--normal-bits", "--uv-bits", "--color-bits",
+                     "--attribute-bits")),
     *((["convert", "tube.obj", "out.pstrip", "--attribute-weight", weight], 1, "",
        "--attribute-weight") for weight in ("NORMAL", "=1", "A=", "A=x", "A=-1", "A=nan", "A=1e9")),
     (["convert", "tube.obj", "out.pstrip", "--placement", "free"], 1, "", "--placement"),

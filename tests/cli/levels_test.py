@@ -80,6 +80,34 @@ class Levels(ProgramTest):
             sizes.append(len(self.read("out.pstrip")))
         self.assertEqual(sizes, sorted(sizes))
 
+    def test_attribute_bits(self):
+        lines = []
+        for i in range(144):
+            x, y = i % 12, i // 12
+            lines += [f"v {x * 0.7:.6f} {y * 0.7:.6f} {(i * i % 13) * 0.123457:.6f}",
+                      f"vt {x / 11.3:.6f} {y / 12.7:.6f}", f"vn {x - 5.3} {y - 4.1} 4"]
+        lines += [f"f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}"
+                  for a in (12 * y + x + 1 for y in range(11) for x in range(11))
+                  for b, c in ((a + 1, a + 13), (a + 13, a + 12))]
+        self.write("dressed.obj", "\n".join(lines))
+        sizes = []
+        for bits in (None, 12, 6):
+            options = () if bits is None else ("--normal-bits", bits, "--uv-bits", bits)
+            done = self.run_program("convert", "dressed.obj", "dressed.pstrip", "--profile", "compact",
+                                    *options, "--force")
+            self.run_program("validate", "-q", "dressed.pstrip")
+            sizes.append(len(self.read("dressed.pstrip")))
+            if bits is None:
+                below, all_bytes = re.search(r"lossless: (\S+) of (\S+) bytes", done.err).groups()
+                self.assertEqual(int(all_bytes.replace(",", "")), sizes[0])
+                self.assertLess(int(below.replace(",", "")), sizes[0])
+                continue
+            turned = float(re.search(r"NORMAL turned by at most (\S+) degrees", done.err)[1])
+            self.assertLess(turned, 90 / (2 ** (bits - 1) - 1))
+            changed = float(re.search(r"TEXCOORD_0 changed by at most (\S+) for", done.err)[1])
+            self.assertLess(changed, 0.51 * 2.0 ** -bits)
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+
     def test_level(self):
         for command in ("extract", "convert"):
             for option in ("--level", "--packet"):

@@ -26,6 +26,8 @@ WAYS = {
     "small, moved vertices": ("--profile", "compact", "--base", "8", "--effort", "small",
                               "--placement", "optimal"),
     "grid": ("--profile", "compact", "--base", "8", "--position-bits", "12"),
+    "few bits": ("--profile", "compact", "--base", "8", "--position-bits", "9", "--normal-bits", "7",
+                 "--uv-bits", "10", "--color-bits", "6", "--attribute-bits", "8"),
 }
 
 
