@@ -14,6 +14,7 @@
 #include "cli/progress_bar.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "cli/texture_options.h"
 #include "codecs/weld/weld.h"
 #include "converters/lossless_cost.h"
 #include "converters/placement.h"
@@ -34,6 +35,7 @@ struct Options {
   LevelOptions level;
   PlacingOption placing;
   LimitOptions limits;
+  TextureOptions textures;
 };
 
 // A file on its way from input to output; errors are of the one or of the other.
@@ -48,6 +50,7 @@ struct Conversion {
   /// Before the writer saw the model; `read` is what the reader left out, which was said.
   std::vector<std::string> converted{}, dropped{}, read{};
   std::vector<KindCount> kept{};
+  Textures textures = Textures::embed;
 };
 
 std::string counts_of(const ConstraintCounts& counts) {
@@ -106,7 +109,7 @@ Result<void> check_target(const Options& options, FileFormat target) {
     return does_nothing("--gltf-strips", why);
   const std::string first = options.encode.first_given();
   if (!first.empty() && !is_progressive(target)) return does_nothing(first, why);
-  return {};
+  return options.textures.check(target);
 }
 
 // Strips to strips of one profile keeps the records; anything else goes through the mesh.
@@ -123,6 +126,8 @@ Result<void> check_input(const Options& options, const LoadedFile& file, FileFor
   if (options.level.given() && !file.is_progressive())
     return fail(ErrorCode::unsupported, "has no levels");
   // A text record gets its strips and its order here; the others have them.
+  if (!options.textures.mode.empty() && keeps_records(options, file, target))
+    return does_nothing("--textures", "to progressive strips, which stay as they are");
   const std::string first = options.encode.first_given();
   if (!first.empty() && file.format != FileFormat::pm && keeps_records(options, file, target))
     return does_nothing(first,
@@ -210,6 +215,7 @@ Result<SavedFiles> save_model(const Conversion& job, const Model& model) {
                .limits = job.options.limits.limits,
                .strict = job.options.strict,
                .dropped_before = job.dropped,
+               .textures = job.textures,
                .replace_companions = job.options.output.force});
 }
 
@@ -261,6 +267,8 @@ ExitCode convert(Conversion& job, LoadedFile file) {
     return finish(job, bytes, save_records(job, std::get<ProgressiveStrips>(file.content)));
   auto model = model_of(job, std::move(file));
   if (!model) return report(job.io, model.error(), options.input);
+  job.textures = options.textures.prepare(model->scene, options.input, options.output, job.target,
+                                          options.limits.limits, job.dropped);
   if (!job.io.quiet || options.strict || options.report == "json") note_arrivals(job, *model);
   if (!is_progressive(job.target)) return finish(job, bytes, save_model(job, *model));
   const auto placed = placed_model(job, std::move(*model));
@@ -287,6 +295,7 @@ ExitCode run(const Options& options, const Streams& io) {
   job.bar.show("read", 0);
   auto file = load(options.input, {.limits = options.limits.limits,
                                    .allow_prefix = options.prefix,
+                                   .allow_parent_paths = options.textures.allow_parent_paths,
                                    .text_options = *encode_options});
   job.bar.clear();
   if (!file) return report(io, file.error(), options.input);
@@ -326,6 +335,7 @@ Command add_convert(CLI::App& root) {
   options->encode.add_to(*app);
   options->level.add_to(*app);
   options->placing.add_to(*app);
+  options->textures.add_to(*app);
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};
 }

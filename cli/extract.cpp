@@ -8,6 +8,7 @@
 #include "cli/output_option.h"
 #include "cli/report.h"
 #include "cli/table.h"
+#include "cli/texture_options.h"
 #include "converters/scene_level.h"
 
 namespace pstrips::cli {
@@ -19,6 +20,7 @@ struct Options {
   OutputOption output;
   LevelOptions level;
   PlacingOption placing;
+  TextureOptions textures;
   LimitOptions limits;
 };
 
@@ -50,7 +52,8 @@ void report_level(const Streams& io, const Options& options, const ProgressiveSt
 ExitCode run(const Options& options, const Streams& io) {
   const auto target = options.output.format();
   if (!target) return report(io, target.error());
-  for (const auto& fits : {options.output.check({options.input}), options.placing.check(*target)})
+  for (const auto& fits : {options.output.check({options.input}), options.placing.check(*target),
+                           options.textures.check(*target)})
     if (!fits) return report(io, fits.error());
   if (options.cut && !is_progressive(*target))
     return report(io, {ErrorCode::bad_argument, "--cut writes pstrip, pstripx or pm"},
@@ -67,11 +70,16 @@ ExitCode run(const Options& options, const Streams& io) {
     // A number of triangles is met inside a packet, too.
     const bool splits = choice->triangles >= 0 && strips->complete;
     if (splits) level = split_level(*strips, static_cast<std::uint64_t>(choice->triangles));
-    const auto model = splits ? decode(*strips, level) : decode(*strips, level.packets);
+    auto model = splits ? decode(*strips, level) : decode(*strips, level.packets);
     if (!model) return report(io, model.error(), options.input);
+    std::vector<std::string> notes;
+    const Textures textures = options.textures.prepare(model->scene, options.input, options.output,
+                                                       *target, options.limits.limits, notes);
+    note(io, options.output.path, notes);
     saved = save(*model, options.output.path, *target,
                  {.transforms = options.placing.transforms(),
                   .limits = options.limits.limits,
+                  .textures = textures,
                   .replace_companions = options.output.force});
   }
   if (!saved) return report_unsaved(io, saved.error(), options.output);
@@ -92,6 +100,7 @@ Command add_extract(CLI::App& root) {
   app->add_flag("--cut", options->cut, "Make a shorter progressive file instead of a mesh");
   options->level.add_to(*app);
   options->placing.add_to(*app);
+  options->textures.add_to(*app);
   options->limits.add_to(*app);
   return {app, [options](Streams io) { return run(*options, io); }};
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "converters/placement.h"
+#include "core/texture_origin.h"
 
 namespace pstrips::cli {
 namespace {
@@ -36,8 +37,8 @@ class Textures {
  private:
   void add(const Scene& scene, const Material& material, std::uint32_t size, const Limits& limits) {
     std::optional<Texture> image;
-    if (material.base_color_image != kNone)
-      image = decode_texture(scene.images[material.base_color_image].data, limits);
+    if (const Index i = material.image(MapRole::base_color); i != kNone)
+      image = decode_texture(scene.images[i].data, limits);
     if (!image) image = Texture{1, 1, {{1, 1, 1}}};
     // Finer texels than pixels would only flicker.
     while (image->width > size && image->width % 2 == 0 && image->height % 2 == 0)
@@ -113,7 +114,7 @@ Result<Model> placed(const Model& model, const Limits& limits) {
   std::vector<std::string> converted, dropped;
   auto out = place_meshes(model, limits, converted, dropped);
   if (!out) return tl::unexpected(out.error());
-  return *out ? *std::move(*out) : model;
+  return with_texture_origin(*out ? *std::move(*out) : model, TextureOrigin::upper_left);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "cli/stripifier_table.h"
 #include "cli/stripify_tetra.h"
 #include "cli/table.h"
+#include "cli/texture_options.h"
 #include "codecs/stripify/delaunay.h"
 #include "converters/capacity.h"
 
@@ -141,13 +142,19 @@ Result<SavedFiles> save_strips(Model model, const std::vector<StripMap>& maps, b
   const bool separate = holds(target, Feature::separate_strips) && !options.join;
   put_strips(model, maps, target,
              {.of_points = of_points, .a_group_each = separate, .colored = options.color});
-  return save(model, options.output.path, target,
-              {.strips = !options.join,
-               .joined_strips = options.join,
-               .strip_swaps = true,
-               .threads = options.limits.limits.threads,
-               .limits = options.limits.limits,
-               .replace_companions = options.output.force});
+  std::vector<std::string> notes;
+  const Textures textures = TextureOptions{}.prepare(model.scene, options.input(), options.output,
+                                                     target, options.limits.limits, notes);
+  auto saved = save(model, options.output.path, target,
+                    {.strips = !options.join,
+                     .joined_strips = options.join,
+                     .strip_swaps = true,
+                     .threads = options.limits.limits.threads,
+                     .limits = options.limits.limits,
+                     .textures = textures,
+                     .replace_companions = options.output.force});
+  if (saved) saved->notes.insert(saved->notes.begin(), notes.begin(), notes.end());
+  return saved;
 }
 
 Result<void> check_size(const Model& model, bool takes_points, const Limits& limits) {

@@ -7,6 +7,7 @@
 
 #include "codecs/measure/measure.h"
 #include "codecs/triangulate/triangulate.h"
+#include "converters/meet_texcoords.h"
 #include "converters/merge.h"
 #include "converters/placement.h"
 #include "core/equal_elements.h"
@@ -271,10 +272,10 @@ bool same_image(const Image& a, const Image& b) {
 }
 
 bool same_texture(const Scene& a, const Material& x, const Scene& b, const Material& y) {
-  const bool has_x = x.base_color_image < a.images.size();
-  const bool has_y = y.base_color_image < b.images.size();
+  const Index image_x = x.image(MapRole::base_color), image_y = y.image(MapRole::base_color);
+  const bool has_x = image_x < a.images.size(), has_y = image_y < b.images.size();
   if (!has_x || !has_y) return has_x == has_y;
-  return same_image(a.images[x.base_color_image], b.images[y.base_color_image]);
+  return same_image(a.images[image_x], b.images[image_y]);
 }
 
 // Beyond what is lost when a factor is written with seven digits.
@@ -340,6 +341,8 @@ Soup soup_of(const Mesh& mesh) {
 }  // namespace
 
 Comparison compare(const Model& given_a, const Model& given_b, std::size_t samples) {
+  if (given_a.scene.texture_origin != given_b.scene.texture_origin)
+    return compare(with_meeting_texcoords(given_a), with_meeting_texcoords(given_b), samples);
   Comparison out;
   out.equivalence = Equivalence::exact;
   out.scenes_equal = given_a.scene.materials == given_b.scene.materials &&

@@ -37,6 +37,8 @@ struct Comparison {
 /// double, so that component types may differ. Meshes are paired in order; when their numbers
 /// differ, each model's meshes count as one.
 ///
+/// Texture coordinates from different corners of an image are compared as from one.
+///
 /// A vertex is the set of its wedges, a wedge its position and attributes, a face its loop of
 /// wedges, its kind, its material's name and its attributes.
 ///

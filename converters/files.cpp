@@ -45,6 +45,51 @@ WriteBytes counted(const WriteBytes& write, std::uint64_t& bytes) {
   };
 }
 
+// Images that are to stand beside the output and are not there yet.
+void add_textures(const Model& model, const std::string& path, FileSet& set) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (const Image& image : model.scene.images) {
+    if (image.data.empty() || image.uri.empty()) continue;
+    const std::filesystem::path place = folder / image.uri;
+    std::error_code none;
+    const auto there =
+        std::filesystem::is_regular_file(place, none) ? read_file(place) : Result<FileBytes>();
+    if (there && std::ranges::equal(there->view(), image.data)) continue;
+    set.files.push_back({place.string(), image.data});
+  }
+}
+
+// Makes the folders that files are to stand in, and takes those away again that stay empty.
+class Folders {
+ public:
+  Folders() = default;
+  Folders(const Folders&) = delete;
+  Folders& operator=(const Folders&) = delete;
+  ~Folders() {
+    std::error_code is_in_use;
+    for (auto made = made_.rbegin(); made != made_.rend(); ++made)
+      std::filesystem::remove(*made, is_in_use);
+  }
+  Result<void> make_for(const std::string& path) {
+    std::error_code error;
+    std::vector<std::filesystem::path> missing;
+    for (auto folder = std::filesystem::path(path).parent_path();
+         !folder.empty() && !std::filesystem::exists(folder, error); folder = folder.parent_path())
+      missing.push_back(folder);
+    for (auto folder = missing.rbegin(); folder != missing.rend(); ++folder) {
+      std::filesystem::create_directory(*folder, error);
+      if (error)
+        return fail(ErrorCode::io, "cannot make the folder: " + error.message(), kNoOffset,
+                    folder->string());
+      made_.push_back(*folder);
+    }
+    return {};
+  }
+
+ private:
+  std::vector<std::filesystem::path> made_;
+};
+
 Result<SavedFiles> write(Result<FileSet> set, const SaveOptions& options) {
   if (!set) return tl::unexpected(set.error());
   SavedFiles out;
@@ -61,6 +106,10 @@ Result<SavedFiles> write(Result<FileSet> set, const SaveOptions& options) {
     OutputFile& view = views.emplace_back(OutputFile{file.path, file.bytes});
     if (file.write) view.write = counted(file.write, out.files[i].bytes);
   }
+  Folders folders;
+  for (std::size_t i = 1; i < set->files.size(); ++i)
+    if (const auto made = folders.make_for(set->files[i].path); !made)
+      return tl::unexpected(made.error());
   if (auto done = write_files(views); !done) return tl::unexpected(done.error());
   return out;
 }
@@ -133,6 +182,7 @@ Result<SavedFiles> save(const Model& model, const std::string& path, FileFormat 
   if (!set) return tl::unexpected(std::move(set).error());
   set->converted.insert(set->converted.begin(), converted.begin(), converted.end());
   set->notes.insert(set->notes.begin(), dropped.begin(), dropped.end());
+  if (options.textures == Textures::copy && path != "-") add_textures(model, path, *set);
   return write(std::move(set), options);
 }
 

@@ -8,6 +8,7 @@
 #include "converters/decode.h"
 #include "converters/encode.h"
 #include "converters/file_formats.h"
+#include "converters/textures.h"
 #include "core/file.h"
 #include "core/limits.h"
 #include "core/progressive_strips.h"
@@ -34,6 +35,8 @@ struct LoadOptions {
   Limits limits;
   /// A binary progressive file that ends early is read as far as it goes.
   bool allow_prefix = false;
+  /// Companions of an OBJ may stand outside the model's folder, when it names them with "..".
+  bool allow_parent_paths = false;
   EncodeOptions text_options;  ///< for FileFormat::pm
 };
 
@@ -63,6 +66,9 @@ struct SaveOptions {
   bool strict = false;
   /// What was left out on the way here: it stands first in the notes and counts for `strict`.
   std::vector<std::string> dropped_before = {};
+  /// With `copy` the images that have data and a name are written beside the output, into folders
+  /// below it; see prepare_textures(), which makes the names.
+  Textures textures = Textures::embed;
   /// Whether files beside the output, which the caller did not name, may be replaced by others.
   bool replace_companions = true;
 };

@@ -4,6 +4,7 @@
 #include "codecs/triangulate/triangulate.h"
 #include "converters/file_io.h"
 #include "converters/merge.h"
+#include "core/texture_origin.h"
 #include "formats/gltf/gltf.h"
 #include "formats/obj/obj.h"
 #include "formats/ply/ply.h"
@@ -45,10 +46,14 @@ void note_ply_losses(const Scene& scene, std::vector<std::string>& notes) {
   Material only_texture;  // as read_ply makes one from a texture's name
   only_texture.metallic = 0;
   const auto is_lost = [&](const Material& material) {
-    only_texture.base_color_image = material.base_color_image;
+    only_texture.maps.clear();
+    if (material.map(MapRole::base_color))
+      only_texture.set_map({.image = material.image(MapRole::base_color)});
     return material != only_texture;
   };
-  const auto is_embedded = [](const Image& image) { return !image.data.empty(); };
+  const auto is_embedded = [](const Image& image) {
+    return !image.data.empty() && image.uri.empty();
+  };
   const auto is_moved = [](const Node& node) {
     return !node.meshes.empty() && node.matrix != Node{}.matrix;
   };
@@ -80,11 +85,13 @@ Result<FileSet> make_any_gltf(const Model& model, const OutputName& name, bool b
     cut.scene = model.scene;
     for (const Mesh& mesh : model.meshes) cut.meshes.push_back(with_triangles(mesh));
   }
-  auto written = write_gltf(cuts ? cut : model, {.binary = binary,
-                                                 .topology = topology_of(options),
-                                                 .swaps = options.strip_swaps,
-                                                 .embed = name.path == "-",
-                                                 .buffer_name = name.companion});
+  auto written =
+      write_gltf(cuts ? cut : model, {.binary = binary,
+                                      .topology = topology_of(options),
+                                      .swaps = options.strip_swaps,
+                                      .embed = name.path == "-",
+                                      .embed_images = options.textures == Textures::embed,
+                                      .buffer_name = name.companion});
   if (!written) return tl::unexpected(written.error());
   FileSet out = one_file(name, std::move(written->main), std::move(written->dropped));
   out.converted = std::move(written->converted);
@@ -110,11 +117,14 @@ std::vector<std::string> output_paths(const std::string& path, FileFormat format
 Result<FileSet> make_ply(const Model& model, const OutputName& name, const SaveOptions& options) {
   std::vector<std::string> notes;
   const bool several = model.meshes.size() > 1;
-  const Model one = several ? merge_meshes(model, notes) : Model{};
+  Model other = several ? merge_meshes(model, notes) : Model{};
+  const bool turns = model.scene.texture_origin != TextureOrigin::lower_left;
+  if (turns)
+    other = with_texture_origin(several ? std::move(other) : model, TextureOrigin::lower_left);
   note_ply_losses(model.scene, notes);
   for (const Mesh& mesh : model.meshes) note_ply_losses(mesh, notes);
   std::vector<std::string> dropped;
-  auto bytes = write_ply(several ? one : model,
+  auto bytes = write_ply(several || turns ? other : model,
                          {.format = options.ascii ? PlyWriteOptions::Format::ascii
                                                   : PlyWriteOptions::Format::little_endian,
                           .threads = options.threads},
@@ -152,7 +162,10 @@ Result<FileSet> make_pstripx(const ProgressiveStrips& strips, const OutputName& 
 }
 
 Result<FileSet> make_pm(const ProgressiveStrips& strips, const OutputName& name) {
-  auto text = write_text(strips);
+  // The records have no word for it; they come from programs that count upwards.
+  const bool turns = strips.scene.texture_origin != TextureOrigin::lower_left;
+  auto text = turns ? write_text(with_texture_origin(strips, TextureOrigin::lower_left))
+                    : write_text(strips);
   if (!text) return tl::unexpected(text.error());
   return one_file(name, std::move(text->bytes), std::move(text->dropped));
 }

@@ -39,8 +39,13 @@ Result<LoadedFile> load_ply(const FileBytes& file, const std::string&, const Loa
 
 Result<LoadedFile> load_obj(const FileBytes& file, const std::string& path,
                             const LoadOptions& options) {
+  std::vector<std::string> notes;
   const auto companions = companions_of(path, options.limits);
-  return loaded(FileFormat::obj, read_obj(file.view(), companions, options.limits));
+  auto out = loaded(FileFormat::obj,
+                    read_obj(file.view(), companions, options.limits,
+                             {.allow_parent_paths = options.allow_parent_paths, .notes = &notes}));
+  if (out) out->notes = std::move(notes);
+  return out;
 }
 
 Result<LoadedFile> load_gltf(const FileBytes& file, const std::string& path,
@@ -83,6 +88,7 @@ Result<LoadedFile> load_pm(const FileBytes& file, const std::string&, const Load
   std::vector<CollapseSequence> collapses{collapses_of(*text)};
   Model model;
   model.meshes.push_back(std::move(text->mesh));
+  model.scene.texture_origin = TextureOrigin::lower_left;
   return loaded(FileFormat::pm, encode_with(model, collapses, options.text_options));
 }
 

@@ -109,6 +109,7 @@ enum class Fault : std::uint8_t {
   node_parent,
   node_mesh,
   material_image,
+  material_map_twice,
   map_entry,
   map_symbol,
   symbol_chain,

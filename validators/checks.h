@@ -36,6 +36,6 @@ Check welding_counts, welding_fits, order_vertices, order_wedges, order_faces, r
     digest_matches;
 
 // checks_scene.cpp
-Check node_parents, node_meshes, material_images, images_there, foreign_keys_differ;
+Check node_parents, node_meshes, material_images, material_maps, images_there, foreign_keys_differ;
 
 }  // namespace pstrips::inline validators::checks

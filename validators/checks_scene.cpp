@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "validators/checks.h"
@@ -23,9 +24,21 @@ void node_meshes(const Document& doc, Findings& out) {
 void material_images(const Document& doc, Findings& out) {
   const Scene& scene = doc.strips.scene;
   for (std::size_t i = 0; i < scene.materials.size() && !out.full(); ++i) {
-    const Index image = scene.materials[i].base_color_image;
-    if (image != kNone && image >= scene.images.size())
-      out.add({.field = Field::material, .element = i}, std::to_string(image));
+    for (const TextureMap& map : scene.materials[i].maps)
+      if (map.image >= scene.images.size())
+        out.add({.field = Field::material, .element = i}, std::to_string(map.image));
+  }
+}
+
+void material_maps(const Document& doc, Findings& out) {
+  const std::vector<Material>& materials = doc.strips.scene.materials;
+  for (std::size_t i = 0; i < materials.size() && !out.full(); ++i) {
+    const std::vector<TextureMap>& maps = materials[i].maps;
+    const auto found =
+        std::ranges::adjacent_find(maps, std::ranges::greater_equal{}, &TextureMap::role);
+    if (found != maps.end())
+      out.add({.field = Field::material, .element = i},
+              std::to_string(static_cast<unsigned>(found->role)));
   }
 }
 

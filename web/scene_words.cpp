@@ -20,7 +20,9 @@ void write_material(ByteWriter& out, const Material& material) {
   out.array<double>(material.emissive);
   out.f64(material.metallic);
   out.f64(material.roughness);
-  out.u32(material.base_color_image);
+  out.f64(material.alpha_cutoff);
+  out.u32(number(material.alpha_mode));
+  out.u32(material.image(MapRole::base_color));
   out.u32(number(material.double_sided));
 }
 
@@ -48,6 +50,7 @@ Bytes scene_words(const ProgressiveStrips& strips, std::uint64_t packets) {
   ByteWriter out;
   out.u32(number(strips.profile));
   out.u32(number(packets));
+  out.u32(number(strips.scene.texture_origin));
   write_list(out, strips.scene.materials,
              [&](const Material& material) { write_material(out, material); });
   write_list(out, strips.scene.images, [&](const Image& image) {

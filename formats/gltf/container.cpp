@@ -19,17 +19,6 @@ int hex_digit(char c) {
   return -1;
 }
 
-std::string percent_decoded(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
-    out += low < 0 ? text[i] : static_cast<char>(high * 16 + low);
-    if (low >= 0) i += 2;
-  }
-  return out;
-}
-
 /// "C:", "http:" … at the start.
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
@@ -131,7 +120,7 @@ Result<DataUri> decode_data_uri(std::string_view uri) {
   std::string text;
   std::string_view content = uri.substr(comma + 1);
   if (!is_base64 || content.find_first_of("% \t\r\n") != std::string_view::npos) {
-    text = percent_decoded(content);
+    text = percent_decode(content);
     if (is_base64) std::erase_if(text, [](char c) { return std::isspace(c) != 0; });
     content = text;
   }
@@ -149,7 +138,7 @@ Result<DataUri> decode_data_uri(std::string_view uri) {
 
 Result<std::string> decode_relative_uri(std::string_view uri) {
   if (has_scheme(uri)) return fail(ErrorCode::unsupported, "absolute URI");
-  std::string path = percent_decoded(uri);
+  std::string path = percent_decode(uri);
   if (path.find('\0') != std::string::npos) return fail(ErrorCode::corrupt, "zero byte in a URI");
   // A backslash climbs out of folders as well on some systems.
   std::ranges::replace(path, '\\', '/');
@@ -157,6 +146,17 @@ Result<std::string> decode_relative_uri(std::string_view uri) {
   if (path.front() == '/' || has_scheme(path) || climbs_out(path))
     return fail(ErrorCode::unsupported, "URI leaves the model's folder");
   return path;
+}
+
+std::string percent_decode(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const int high = text[i] == '%' && i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
+    const int low = high >= 0 ? hex_digit(text[i + 2]) : -1;
+    out += low < 0 ? text[i] : static_cast<char>(high * 16 + low);
+    if (low >= 0) i += 2;
+  }
+  return out;
 }
 
 std::string percent_encode(std::string_view path) {

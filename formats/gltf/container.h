@@ -42,6 +42,8 @@ Result<DataUri> decode_data_uri(std::string_view uri);
 ///
 /// errors  unsupported when the URI is absolute or leaves the folder, corrupt when it is malformed
 Result<std::string> decode_relative_uri(std::string_view uri);
+/// A URI as plain text; a percent sign without two digits behind it stands for itself.
+std::string percent_decode(std::string_view text);
 std::string percent_encode(std::string_view path);
 
 }  // namespace pstrips::inline formats::gltf

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/gltf/container.h"
 #include "formats/gltf/extensions/extension.h"
 #include "formats/gltf/json_cursor.h"
+#include "formats/gltf/materials.h"
 #include "formats/gltf/nodes.h"
 #include "formats/gltf/unknown_extensions.h"
 
@@ -263,24 +265,6 @@ Index read_texture_source(const Cursor& texture, std::size_t images) {
   return kNone;
 }
 
-Material read_material(const Cursor& in, const std::vector<Index>& texture_image) {
-  Material out;
-  out.name = in.text("name");
-  out.double_sided = in.flag("doubleSided");
-  in.numbers("emissiveFactor", out.emissive);
-  if (!in.has_object("pbrMetallicRoughness")) return out;
-  const Cursor pbr = in["pbrMetallicRoughness"];
-  pbr.numbers("baseColorFactor", out.base_color);
-  pbr.number("metallicFactor", out.metallic);
-  pbr.number("roughnessFactor", out.roughness);
-  if (!pbr.has_object("baseColorTexture")) return out;
-  const Cursor texture = pbr["baseColorTexture"];
-  texture.required_whole("index");
-  const Index i = texture.reference("index", texture_image.size());
-  if (!in.failed()) out.base_color_image = texture_image[i];
-  return out;
-}
-
 Image read_image(const Cursor& in, std::size_t views, Index& view) {
   Image out;
   out.name = in.text("name");
@@ -289,6 +273,9 @@ Image read_image(const Cursor& in, std::size_t views, Index& view) {
   if (in.has("uri") && view != kNone) in.fail(ErrorCode::corrupt, "image with URI and bufferView");
   out.uri = in.take_uri("uri");
   for (const char* key : {"name", "mimeType", "bufferView", "uri"}) in.value().erase(key);
+  if (out.uri.empty() || is_data_uri(out.uri)) return out;
+  in.value()["uri"] = out.uri;  // it comes back as it was written
+  out.uri = percent_decode(out.uri);
   return out;
 }
 

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <set>
 
+#include "core/color_range.h"
 #include "core/gather.h"
+#include "core/texture_origin.h"
 #include "formats/gltf/local_origin.h"
 
 namespace pstrips::inline formats::gltf {
@@ -83,7 +85,7 @@ std::string custom_name(std::string name) {
 
 /// Names and types of other formats become glTF's.
 void fit(Fitted& out, Notes& notes) {
-  const Attribute& in = *out.source;
+  const Attribute in = out.attribute().format();
   const Semantic* semantic = find_semantic(out.name);
   const bool fits_count = semantic && in.count >= semantic->least && in.count <= semantic->most;
   const unsigned type = bit(in.type, in.normalized);
@@ -94,10 +96,22 @@ void fit(Fitted& out, Notes& notes) {
     notes.converted.push_back("the name of attribute " + in.semantic + ", written as " + out.name);
   }
   if (keeps_name || !((kSmallIntegers | kFloat) & type)) {
-    out.converted = as_float(in, in.count);
+    out.converted = as_float(out.attribute(), in.count);
     notes.converted.push_back("the type " + std::string(name_of(in.type)) + " of attribute " +
                               in.semantic + ", written as f32");
   }
+}
+
+/// Texture coordinates from the lower left, and colours of 8 or 16 bits.
+void convert_values(Fitted& out, const FitOptions& options, Notes& notes) {
+  const Attribute& in = *out.source;
+  if (options.turns_texcoords && is_texcoord(in.semantic)) out.converted = turned(in);
+  if (options.from_gltf || !in.semantic.starts_with("COLOR_")) return;
+  const double range = color_range(in);
+  if (range == 1) return;
+  notes.converted.push_back("colours of " + in.semantic + ", divided by " +
+                            std::to_string(static_cast<int>(range)));
+  out.converted = color_shares(in);
 }
 
 /// False when no accessor type has this many components.
@@ -181,6 +195,7 @@ std::vector<Fitted> fit_attributes(const Mesh& mesh, const FitOptions& options, 
   for (const Attribute& attribute : mesh.wedge_attributes) {
     Fitted fitted{.name = attribute.semantic, .type = {}, .source = &attribute, .converted = {}};
     split_target(fitted, options.from_gltf ? options.targets : mesh.wedge_attributes.size());
+    if (fitted.target == kNone) convert_values(fitted, options, notes);
     const bool wide = attribute.type == ComponentType::f64 || attribute.type == ComponentType::i32;
     if (wide || (!options.from_gltf && fitted.target == kNone)) fit(fitted, notes);
     const bool is_mat2 =

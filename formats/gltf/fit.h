@@ -29,6 +29,7 @@ struct FitOptions {
   Index targets = 0;                               ///< morph targets, when from glTF
   const std::vector<std::string>* mat2 = nullptr;  ///< attributes of four components that are MAT2
   Point origin{};                                  ///< positions are counted from here
+  bool turns_texcoords = false;                    ///< they are from the lower left
 };
 
 /// POSITION, one element a wedge, and the wedge attributes; they refer to `mesh` where nothing had

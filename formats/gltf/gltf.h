@@ -26,8 +26,9 @@ namespace pstrips::inline formats {
 ///             polyline (a loop ends at its first corner), POINTS one-corner faces.
 /// Scene       Nodes (all of them, parents first; one with several parents once for each),
 ///             materials and images in glTF's order; embedded images as bytes, others as the URI
-///             that the file wrote. The rest of the asset (cameras, skins, animations, extensions,
-///             extras …) goes to the foreign keys "gltf/…", from which write_gltf restores it.
+///             that the file wrote, percent-decoded. Texture coordinates are from the upper left.
+///             The rest of the asset (cameras, skins, animations, extensions, extras …) goes to the
+///             foreign keys "gltf/…", from which write_gltf restores it.
 ///
 /// Draco and meshopt compression are decoded where there are no plain bytes beside.
 ///
@@ -57,7 +58,10 @@ struct GltfWriteOptions {
   GltfTopology topology = GltfTopology::triangles;
   /// A strip may turn by a repeated index where a triangle stands on the last one's other edge.
   bool swaps = false;
-  bool embed = false;                      ///< .gltf only: the buffer as a data URI
+  bool embed = false;  ///< .gltf only: the buffer as a data URI
+  /// Images with data and a URI go into the buffer; else they are named, and the caller writes
+  /// them.
+  bool embed_images = true;
   std::string buffer_name = "buffer.bin";  ///< .gltf only: file name of the buffer
 };
 
@@ -77,6 +81,9 @@ struct GltfFiles {
 /// mended (see mend.h), skins and weights go with the attributes that they need, textures with
 /// their coordinates. Positions that f32 would distort (map coordinates) are counted from one
 /// origin for all meshes, which stands in the translation of a node.
+/// Texture coordinates from the lower left are turned. Materials become metallic-roughness ones
+/// with KHR_texture_transform where their maps are moved. Colours beyond 1 are taken for numbers up
+/// to 255 or 65535.
 ///
 /// Polygons become triangle fans, f64 and other types that glTF forbids f32; names that glTF does
 /// not know get a leading '_'. Indices take the smallest type and never its largest value.

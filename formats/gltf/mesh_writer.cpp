@@ -37,6 +37,7 @@ json MeshWriter::attributes_of(std::size_t m) {
   FitOptions fit;
   if (layouts_) fit = {true, (*layouts_)[m].targets, &(*layouts_)[m].mat2};
   if (origin_) fit.origin = *origin_;
+  fit.turns_texcoords = model_.scene.texture_origin != TextureOrigin::upper_left;
   std::vector<Fitted> attributes = fit_attributes(mesh(m), fit, notes_);
   mend_values(mesh(m), fit.from_gltf, attributes, notes_);
   sets_ = close_gaps(attributes, notes_);

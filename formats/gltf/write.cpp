@@ -1,7 +1,6 @@
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "core/base64.h"
@@ -10,16 +9,13 @@
 #include "formats/gltf/extensions/extension.h"
 #include "formats/gltf/image_type.h"
 #include "formats/gltf/kept_asset.h"
+#include "formats/gltf/materials.h"
 #include "formats/gltf/mesh_writer.h"
 #include "formats/gltf/needs.h"
 
 namespace pstrips::inline formats {
 namespace gltf {
 namespace {
-
-double finite_or(double value, double otherwise) {
-  return std::isfinite(value) ? value : otherwise;
-}
 
 /// About what a model's meshes take in the buffer.
 std::size_t expected_bytes(const Model& model) {
@@ -176,28 +172,9 @@ class AssetWriter {
   }
 
   void add_materials() {
-    for (const Material& material : model_.scene.materials) {
-      json pbr = json::object(), out = json::object();
-      const auto share = [](double x) { return std::clamp(finite_or(x, 1), 0.0, 1.0); };
-      std::array<double, 4> color;
-      std::ranges::transform(material.base_color, color.begin(), share);
-      std::array<double, 3> light;
-      std::ranges::transform(material.emissive, light.begin(), share);
-      if (color != material.base_color || light != material.emissive ||
-          share(material.metallic) != material.metallic ||
-          share(material.roughness) != material.roughness)
-        notes_.dropped.push_back("factors of material " + material.name + " beyond 0 to 1");
-      pbr["baseColorFactor"] = color;
-      pbr["metallicFactor"] = share(material.metallic);
-      pbr["roughnessFactor"] = share(material.roughness);
-      if (material.base_color_image < model_.scene.images.size())
-        pbr["baseColorTexture"] = {{"index", material.base_color_image}};
-      out["pbrMetallicRoughness"] = std::move(pbr);
-      out["emissiveFactor"] = light;
-      if (material.double_sided) out["doubleSided"] = true;
-      if (!material.name.empty()) out["name"] = material.name;
-      root_["materials"].push_back(std::move(out));
-    }
+    MaterialWriter writer(model_.scene, image_extensions_, notes_.dropped);
+    for (const Material& material : model_.scene.materials)
+      root_["materials"].push_back(writer.write(material));
     for (std::size_t i = 0; i < model_.scene.images.size(); ++i)
       root_["textures"].push_back(make_texture(i));
   }
@@ -214,22 +191,34 @@ class AssetWriter {
     return texture;
   }
 
+  void embed(const Image& image, json& out) {
+    out.erase("uri");
+    out["bufferView"] = buffer_.add_view(image.data);
+    if (image.mime_type.empty()) out["mimeType"] = mime_type_of(image.data);
+    if (image.name.empty() && !image.uri.empty()) out["name"] = image.uri;
+  }
+
+  /// A URI that the asset kept is left as it was written.
+  static void set_uri(std::string path, json& out) {
+    const auto kept = out.find("uri");
+    if (kept != out.end() && kept->is_string() &&
+        percent_decode(kept->get_ref<const std::string&>()) == path)
+      return;
+    std::ranges::replace(path, '\\', '/');
+    out["uri"] = percent_encode(path);
+  }
+
   void add_images() {
-    // URIs of a model that was glTF once are encoded already.
-    const bool encoded = !find_foreign(model_.scene, kRestKey).empty();
     for (std::size_t i = 0; i < model_.scene.images.size(); ++i) {
       const Image& image = model_.scene.images[i];
       if (!kept_) root_["images"].push_back(json::object());
       json& out = root_["images"][i];
       if (!image.name.empty()) out["name"] = image.name;
       if (!image.mime_type.empty()) out["mimeType"] = image.mime_type;
-      if (!image.data.empty()) {
-        out["bufferView"] = buffer_.add_view(image.data);
-      } else if (!image.uri.empty()) {
-        std::string path = image.uri;
-        if (!encoded) std::ranges::replace(path, '\\', '/');
-        out["uri"] = encoded ? path : percent_encode(path);
-      }
+      if (!image.data.empty() && (options_.embed_images || image.uri.empty()))
+        embed(image, out);
+      else if (!image.uri.empty())
+        set_uri(image.uri, out);
       if (!kept_ && !is_image_of(image, {"png", "jpg", "jpeg", "ktx2", "webp"}))
         notes_.dropped.push_back(
             "image " + (image.uri.empty() ? image.name : image.uri) +
@@ -282,7 +271,7 @@ class AssetWriter {
   AssetBuffer buffer_;
   Notes notes_;
   MeshWriter meshes_;
-  std::set<std::string_view> image_extensions_;  ///< used, not required
+  std::set<std::string_view> image_extensions_;  ///< of images and materials: used, not required
 };
 
 }  // namespace

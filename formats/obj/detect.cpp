@@ -19,6 +19,8 @@ static_assert(std::ranges::is_sorted(kWords));
 
 }  // namespace
 
+bool obj::is_statement(std::string_view word) { return std::ranges::binary_search(kWords, word); }
+
 bool looks_like_obj(ByteView file) {
   std::string_view text = without_utf8_mark(as_text(file));
   if (text.substr(0, 4096).find('\0') != text.npos) return false;
@@ -27,7 +29,7 @@ bool looks_like_obj(ByteView file) {
     std::string_view line = text.substr(0, text.find(line_end));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     const std::string_view word = obj::next_word(line);
-    if (!word.empty() && !word.starts_with('#')) return std::ranges::binary_search(kWords, word);
+    if (!word.empty() && !word.starts_with('#')) return obj::is_statement(word);
   }
   return false;
 }

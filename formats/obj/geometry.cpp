@@ -58,8 +58,13 @@ bool read_numbers(Cursor& cursor, std::array<Number, n>& numbers, std::size_t le
     if (count == n)
       return cursor.refuse(ErrorCode::corrupt, "more numbers than the statement takes");
     const char* const next = parse_number(cursor.p, cursor.end, numbers[count]);
-    if (!next)
-      return cursor.refuse(ErrorCode::corrupt, "not a number, or not in the range of a double");
+    if (!next) {
+      const std::string_view rest = cursor.rest();
+      const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r"));
+      return cursor.refuse(ErrorCode::corrupt, word.find(',') == word.npos
+                                                   ? "not a number, or not in the range of a double"
+                                                   : "a decimal comma; OBJ has points");
+    }
     cursor.p = next;
   }
   return count >= least || cursor.refuse_short("fewer numbers than the statement needs");
@@ -75,8 +80,9 @@ bool at_part_end(const Cursor& cursor) {
   return cursor.p == cursor.end || *cursor.p == '/' || is_space(*cursor.p);
 }
 
-/// A reference to the lines of one kind: from 1, or from -1 back from the newest.
-bool read_index(Cursor& cursor, Referenced& lines, Index& index) {
+/// A reference to the lines of one kind: from 1, or from -1 back from the newest. One that leads
+/// nowhere is an error, or leaves `index` as it is and is counted.
+bool read_index(Cursor& cursor, Referenced& lines, bool may_miss, Index& index) {
   const char *p = cursor.p, *const end = cursor.end;
   const bool relative = p != end && *p == '-';
   p += relative;
@@ -90,7 +96,13 @@ bool read_index(Cursor& cursor, Referenced& lines, Index& index) {
     return relative ? cursor.refuse_short("not an index")
                     : cursor.refuse(ErrorCode::corrupt, "not an index");
   }
-  if (value == 0 || value > (relative ? lines.count : lines.total))
+  const bool misses = value == 0 || value > (relative ? lines.count : lines.total);
+  if (misses && may_miss) {
+    ++lines.missing;
+    cursor.p = p;
+    return true;
+  }
+  if (misses)
     return cursor.refuse(ErrorCode::corrupt, value == 0 ? "index 0" : "index out of range");
   if (relative) value = lines.count + 1 - value;
   lines.largest = std::max(lines.largest, value);
@@ -182,13 +194,13 @@ bool read_normal(Cursor& cursor, Geometry& out, const Limits& limits) {
 
 bool read_corner(Cursor& cursor, Geometry& out) {
   Index v = kNone, vt = kNone, vn = kNone;
-  if (!read_index(cursor, out.vertices, v)) return false;
+  if (!read_index(cursor, out.vertices, false, v)) return false;
   if (cursor.p != cursor.end && *cursor.p == '/') {
     ++cursor.p;
-    if (!at_part_end(cursor) && !read_index(cursor, out.texcoords, vt)) return false;
+    if (!at_part_end(cursor) && !read_index(cursor, out.texcoords, true, vt)) return false;
     if (cursor.p != cursor.end && *cursor.p == '/') {
       ++cursor.p;
-      if (!at_part_end(cursor) && !read_index(cursor, out.normals, vn)) return false;
+      if (!at_part_end(cursor) && !read_index(cursor, out.normals, true, vn)) return false;
     }
   }
   if (cursor.p != cursor.end && !is_space(*cursor.p))

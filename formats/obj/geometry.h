@@ -18,6 +18,7 @@ struct Referenced {
   std::uint64_t count = 0;
   std::uint64_t largest = 0;        ///< index referred to, from 1
   std::uint64_t total = kMaxCount;  ///< the largest that may be
+  std::uint64_t missing = 0;        ///< corners that name a line of vt or vn that is not there
 };
 
 /// What a file has of each attribute, its values and which of them fit a float.

@@ -20,8 +20,17 @@ Result<void> MaterialLibraries::read(std::string_view line) {
     if (missing_.size() + missing.size() >= limits_.string_bytes)
       return fail(ErrorCode::over_limit, "more text beside the mesh than the limit allows");
     missing_.append(missing) += '\n';
+    note_missing(missing);
   }
   return {};
+}
+
+void MaterialLibraries::note_missing(std::string_view name) const {
+  if (!options_.notes || !read_file_) return;
+  const bool is_outside = !companion_path(name, options_.allow_parent_paths);
+  options_.notes->push_back(
+      "material library " + clean_name(name) +
+      (is_outside ? ", which is outside the model's folder" : ", which is not there"));
 }
 
 Result<bool> MaterialLibraries::read_words(std::string_view words) {
@@ -35,7 +44,7 @@ Result<bool> MaterialLibraries::read_words(std::string_view words) {
 }
 
 Result<bool> MaterialLibraries::read_library(std::string_view written) {
-  const auto path = companion_path(written);
+  const auto path = companion_path(written, options_.allow_parent_paths);
   if (!path || !read_file_) return false;
   if (const auto seen = seen_.find(*path); seen != seen_.end()) return seen->second;
   auto bytes = read_file_(*path);

@@ -8,15 +8,16 @@
 
 #include "core/file.h"
 #include "core/limits.h"
+#include "formats/obj/obj.h"
 
 namespace pstrips::inline formats::obj {
 
 /// The material libraries that a file names, each read once.
 class MaterialLibraries {
  public:
-  /// Both must outlive this. `read_file` may be empty: then no library is found.
-  MaterialLibraries(const ReadFile& read_file, const Limits& limits)
-      : read_file_(read_file), limits_(limits) {}
+  /// All must outlive this. `read_file` may be empty: then no library is found.
+  MaterialLibraries(const ReadFile& read_file, const Limits& limits, const ObjReadOptions& options)
+      : read_file_(read_file), limits_(limits), options_(options) {}
 
   /// Reads those of an `mtllib` line, which is one name, or several with spaces between them.
   ///
@@ -31,10 +32,12 @@ class MaterialLibraries {
  private:
   /// Whether there is such a file.
   Result<bool> read_library(std::string_view written);
+  void note_missing(std::string_view name) const;
   Result<bool> read_words(std::string_view words);
 
   const ReadFile& read_file_;
   const Limits& limits_;
+  const ObjReadOptions& options_;
   std::string text_, missing_;
   std::set<std::string> missing_names_;
   std::map<std::string, bool> seen_;  ///< by path; whether it could be read

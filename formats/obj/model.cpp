@@ -1,11 +1,13 @@
 #include "formats/obj/model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <numeric>
 #include <optional>
 
+#include "core/color_range.h"
 #include "formats/obj/mtl.h"
 #include "formats/obj/obj.h"
 #include "formats/obj/wedges.h"
@@ -15,7 +17,8 @@ namespace {
 
 class ModelMaker {
  public:
-  ModelMaker(Statements in, const Limits& limits) : in_(std::move(in)), limits_(limits) {}
+  ModelMaker(Statements in, const Limits& limits, const ObjReadOptions& options)
+      : in_(std::move(in)), limits_(limits), options_(options) {}
 
   Result<Model> make() && {
     if (!build()) return tl::unexpected(*error_);
@@ -30,6 +33,9 @@ class ModelMaker {
 
   bool build() {
     count_unused_tuples();
+    note_missing("vt", in_.geometry.texcoords.missing);
+    note_missing("vn", in_.geometry.normals.missing);
+    model_.scene.texture_origin = TextureOrigin::lower_left;
     // Wedges are numbered in 32 bits.
     if (const std::uint64_t most = in_.geometry.corner_vertex.size() + in_.geometry.vertices.count;
         most > kMaxCount)
@@ -80,6 +86,15 @@ class ModelMaker {
   void count_unused_tuples() {
     note_unused("vt", in_.geometry.texcoords.count, in_.geometry.corner_texcoord);
     note_unused("vn", in_.geometry.normals.count, in_.geometry.corner_normal);
+  }
+
+  void note(std::string text) const {
+    if (options_.notes) options_.notes->push_back(std::move(text));
+  }
+  void note_missing(std::string_view kind, std::uint64_t corners) const {
+    if (corners > 0)
+      note("the " + std::string(kind) + " of " + std::to_string(corners) +
+           " corners, which is 0 or names no line");
   }
 
   void note_unused(std::string_view kind, std::uint64_t count, const std::vector<Index>& used) {
@@ -151,7 +166,7 @@ class ModelMaker {
       out.push_back(attribute("TEXCOORD_0", uv_fit, 2, n, [&](std::size_t w, std::size_t c) {
         return value_of(in_.geometry.texcoord, 3, wedges_.texcoord[w], c);
       }));
-    in_.geometry.values.color.resize(any & kHasColor ? 4 * in_.geometry.vertices.count : 0);
+    if (any & kHasColor) whiten();
     if (any & kHasColor)
       out.push_back(
           attribute("COLOR_0", in_.geometry.values.color_fits, any & kHasAlpha ? 4 : 3, n,
@@ -169,6 +184,29 @@ class ModelMaker {
         return value_of(in_.geometry.texcoord, 3, wedges_.texcoord[w], 2);
       }));
     add_presence(mesh, std::move(flags), any);
+  }
+
+  /// A vertex that says no colour is white, one that says no alpha opaque.
+  void whiten() {
+    std::vector<double>& color = in_.geometry.values.color;
+    color.resize(4 * in_.geometry.vertices.count);
+    const std::vector<std::uint8_t>& flags = in_.geometry.values.flags;
+    double most = 0, most_alpha = 0;
+    bool whole = true;
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      if (!(flags[v] & kHasColor)) continue;
+      for (std::size_t c = 4 * v; c < 4 * v + 3; ++c) {
+        most = std::max(most, color[c]);
+        whole &= color[c] == std::floor(color[c]);
+      }
+      most_alpha = std::max(most_alpha, color[4 * v + 3]);
+    }
+    const double white = color_range(most, whole), opaque = color_range(most_alpha, true);
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      if (!(flags[v] & kHasColor))
+        std::fill_n(color.begin() + 4 * static_cast<std::ptrdiff_t>(v), 3, white);
+      if (!(flags[v] & kHasAlpha)) color[4 * v + 3] = opaque;
+    }
   }
 
   /// The mask is there when a wedge lacks something that others have. What a file can only say
@@ -211,6 +249,9 @@ class ModelMaker {
     }
     if (defined + unknown_materials_.size() > limits_.meshes)
       return refuse("more materials than the limit allows");
+    if (defined > 0)
+      for (const std::string& name : unknown_materials_)
+        note("material " + name + ", which no library defines");
     for (std::string& name : unknown_materials_)
       scene.materials.push_back(named_material(std::move(name)));
     return true;
@@ -218,15 +259,17 @@ class ModelMaker {
 
   void name_groups(Mesh& mesh) {
     const auto object_of = [](const GroupKey& key) { return std::get<0>(key); };
-    const Index object = in_.groups.empty() ? in_.object : object_of(in_.groups.front());
+    const Index object = in_.groups.empty() ? 0 : object_of(in_.groups.front());
     const bool one_object = std::ranges::all_of(
         in_.groups, [&](const GroupKey& key) { return object_of(key) == object; });
-    if (one_object) mesh.name = in_.names[object];
+    if (one_object)
+      mesh.name = in_.names[in_.groups.empty() ? in_.object : in_.objects[object].name];
     for (std::size_t i = 0; i < in_.groups.size(); ++i) {
       const auto& [key_object, key_group, material, kind] = in_.groups[i];
-      const std::string& prefix = one_object ? in_.names[kEmptyName] : in_.names[key_object];
+      const NamedObject prefix = one_object ? NamedObject{} : in_.objects[key_object];
       mesh.groups.push_back(
-          {obj_group_name(prefix, in_.names[key_group]), group_material_[i], kind});
+          {obj_group_name(in_.names[prefix.name], in_.names[key_group], prefix.instance),
+           group_material_[i], kind});
     }
   }
 
@@ -244,6 +287,7 @@ class ModelMaker {
 
   Statements in_;
   const Limits& limits_;
+  const ObjReadOptions& options_;
   std::optional<Error> error_;
   WedgeTable wedges_;
   std::vector<std::string> unknown_materials_;
@@ -253,8 +297,9 @@ class ModelMaker {
 
 }  // namespace
 
-Result<Model> make_model(Statements statements, const Limits& limits) {
-  return ModelMaker(std::move(statements), limits).make();
+Result<Model> make_model(Statements statements, const Limits& limits,
+                         const ObjReadOptions& options) {
+  return ModelMaker(std::move(statements), limits, options).make();
 }
 
 }  // namespace pstrips::inline formats::obj

@@ -1,6 +1,7 @@
 #include "formats/obj/names.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 
 #include "core/text.h"
@@ -9,6 +10,9 @@
 
 namespace pstrips::inline formats::obj {
 namespace {
+
+/// What no escape of a name begins with: the number of an object among those of its name follows.
+constexpr std::string_view kInstance = "%n";
 
 bool ends_in_mtl(std::string_view word) {
   constexpr std::size_t kLength = 4;
@@ -54,7 +58,7 @@ std::string clean_group(std::string_view text) {
   return out;
 }
 
-std::optional<std::string> companion_path(std::string_view written) {
+std::optional<std::string> companion_path(std::string_view written, bool may_climb) {
   std::string path;
   for (std::size_t i = 0; i < written.size(); ++i) {
     const char c = written[i];
@@ -68,7 +72,7 @@ std::optional<std::string> companion_path(std::string_view written) {
     const std::size_t slash = std::min(rest.find('/'), rest.size());
     const std::string_view part = rest.substr(0, slash);
     rest.remove_prefix(std::min(slash + 1, rest.size()));
-    if (part == "..") return std::nullopt;
+    if (part == ".." && !may_climb) return std::nullopt;
     if (part.empty() || part == ".") continue;
     if (!out.empty()) out += '/';
     out += part;
@@ -100,6 +104,10 @@ GroupName split_group_name(std::string_view name) {
   }
   out.group = name.substr(slash + 1);
   for (std::string_view rest = name.substr(0, slash); !rest.empty();) {
+    if (rest.starts_with(kInstance)) {
+      std::from_chars(rest.data() + kInstance.size(), rest.data() + rest.size(), out.instance);
+      break;
+    }
     const std::string_view escape = rest.substr(0, 3);
     const bool escaped = escape == "%2F" || escape == "%25";
     out.object += escape == "%2F" ? '/' : rest.front();
@@ -112,7 +120,7 @@ GroupName split_group_name(std::string_view name) {
 
 namespace pstrips::inline formats {
 
-std::string obj_group_name(std::string_view object, std::string_view group) {
+std::string obj_group_name(std::string_view object, std::string_view group, Index instance) {
   std::string out;
   for (const char c : object) {
     if (c == '/')
@@ -122,6 +130,7 @@ std::string obj_group_name(std::string_view object, std::string_view group) {
     else
       out += c;
   }
+  if (instance > 1) out.append(obj::kInstance) += std::to_string(instance);
   if (!out.empty() || group.find('/') != group.npos) out += '/';
   return out.append(group);
 }

@@ -5,9 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "core/mesh.h"
 #include "core/text.h"
 
 namespace pstrips::inline formats::obj {
+
+/// Whether a statement of OBJ begins with the word, of all parts of the format.
+bool is_statement(std::string_view word);
 
 /// The next word of `text`, which is shortened by it; empty at the end.
 std::string_view next_word(std::string_view& text);
@@ -20,8 +24,8 @@ std::string clean_name(std::string_view text);
 std::string clean_group(std::string_view text);
 
 /// The path of a companion file below the model's folder, '/' between its parts; nothing when the
-/// name is absolute, names a drive or a scheme, climbs with "..", or is empty.
-std::optional<std::string> companion_path(std::string_view written);
+/// name is absolute, names a drive or a scheme, climbs with ".." (unless it may), or is empty.
+std::optional<std::string> companion_path(std::string_view written, bool may_climb = false);
 
 /// The names on an `mtllib` line: a name ends with a word in ".mtl" or with the line, so that
 /// names with spaces work. As written, "\ " for an escaped space included.
@@ -29,6 +33,7 @@ std::vector<std::string_view> split_mtllib(std::string_view text);
 
 struct GroupName {
   std::string object, group;
+  Index instance = 1;
 };
 /// The inverse of obj_group_name.
 GroupName split_group_name(std::string_view name);

@@ -111,4 +111,41 @@ const char* parse_number(const char* p, const char* end, Number& out) {
 void append_number(std::string& out, float value) { append_shortest(out, value); }
 void append_number(std::string& out, double value) { append_shortest(out, value); }
 
+bool turns_in_f32(float value) {
+  const auto turned = static_cast<float>(1 - static_cast<double>(value));
+  return !std::isfinite(value) || static_cast<float>(1 - static_cast<double>(turned)) == value;
+}
+
+void append_turned(std::string& out, float value, bool in_f32) {
+  const double turned = 1 - static_cast<double>(value);
+  if (!std::isfinite(turned)) return append_shortest(out, turned);
+  char text[32];
+  const auto with_digits = [&](int digits) -> std::string_view {
+    const auto end =
+        std::to_chars(std::begin(text), std::end(text), turned, std::chars_format::general, digits)
+            .ptr;
+    return {text, end};
+  };
+  const auto read = [&](std::string_view decimal) {
+    double number = 0;
+    parse_decimal(decimal, number);
+    return in_f32 ? static_cast<double>(static_cast<float>(number)) : number;
+  };
+  int least = 1, most = std::numeric_limits<double>::max_digits10;
+  while (least < most) {
+    const int middle = (least + most) / 2;
+    if (static_cast<float>(1 - read(with_digits(middle))) == value)
+      most = middle;
+    else
+      least = middle + 1;
+  }
+  const double number = read(with_digits(most));
+  if (in_f32)
+    append_shortest(out, static_cast<float>(number));
+  else
+    append_shortest(out, number);
+}
+
+void append_turned(std::string& out, double value) { append_shortest(out, 1 - value); }
+
 }  // namespace pstrips::inline formats::obj

@@ -26,4 +26,13 @@ bool fits_f32(double value);
 void append_number(std::string& out, float value);
 void append_number(std::string& out, double value);
 
+/// Whether some float f is such that 1 - f, rounded, is the value.
+bool turns_in_f32(float value);
+
+/// Appends 1 - value, for texture coordinates from the other corner: of a float the shortest
+/// decimal from which 1 - v is the float again. The decimal is read as a float if `in_f32`, which
+/// must be true of all its kind, else as a double.
+void append_turned(std::string& out, float value, bool in_f32);
+void append_turned(std::string& out, double value);
+
 }  // namespace pstrips::inline formats::obj

@@ -24,16 +24,20 @@ void append_index(std::string& out, std::uint64_t index) {
   out.append(text, std::to_chars(std::begin(text), std::end(text), index).ptr);
 }
 
+/// Component c of element i of an attribute of floats.
+float float_component(const Attribute& a, std::size_t i, std::size_t c) {
+  float value = 0;
+  std::memcpy(&value, a.element(i).data() + c * sizeof value, sizeof value);
+  return value;
+}
+
 /// Component c of element i; a float prints as the float it is.
 void append_component(std::string& out, const Attribute& a, std::size_t i, std::size_t c) {
   out += ' ';
-  if (a.type == ComponentType::f32) {
-    float value = 0;
-    std::memcpy(&value, a.element(i).data() + c * sizeof value, sizeof value);
-    obj::append_number(out, value);
-  } else {
+  if (a.type == ComponentType::f32)
+    obj::append_number(out, float_component(a, i, c));
+  else
     obj::append_number(out, component(a, i, c));
-  }
 }
 
 /// For each wedge the number of its `vt` or `vn` line in the file, from 1; 0: it has none. Empty:
@@ -125,8 +129,9 @@ class ObjWriter {
       files_.mtl = bytes_of(foreign("obj/mtl"));
     } else {
       make_material_names();
-      files_.mtl = bytes_of(obj::write_mtl(scene, material_names_));
-      report_materials();
+      files_.mtl = bytes_of(obj::write_mtl(scene, material_names_, dropped_));
+      for (const Image& image : scene.images)
+        if (image.uri.empty()) drop("embedded images");
     }
     if (files_.mtl_name.empty() && !files_.mtl.empty()) {
       drop("materials");
@@ -144,7 +149,8 @@ class ObjWriter {
     if (!obj::read_mtl(foreign("obj/mtl"), original, Limits{})) return false;
     const auto& materials = model_.scene.materials;
     const auto defined = original.materials.size();
-    if (materials.size() < defined || model_.scene.images != original.images) return false;
+    if (materials.size() < defined || !same_uris(model_.scene.images, original.images))
+      return false;
     std::set<std::string_view> seen;
     std::vector<bool> is_first(materials.size());
     for (std::size_t m = 0; m < materials.size(); ++m) {
@@ -160,6 +166,11 @@ class ObjWriter {
     return true;
   }
 
+  /// Their bytes may have been read meanwhile.
+  static bool same_uris(const std::vector<Image>& a, const std::vector<Image>& b) {
+    return std::ranges::equal(a, b, {}, &Image::uri, &Image::uri);
+  }
+
   void make_material_names() {
     std::set<std::string> taken;
     for (const Material& material : model_.scene.materials) {
@@ -170,13 +181,6 @@ class ObjWriter {
         name = base + '_' + std::to_string(n);
       material_names_.push_back(std::move(name));
     }
-  }
-
-  void report_materials() {
-    for (const Material& material : model_.scene.materials)
-      if (material.double_sided) drop("double_sided");
-    for (const Image& image : model_.scene.images)
-      if (image.uri.empty()) drop("embedded images");
   }
 
   void report_scene() {
@@ -195,11 +199,11 @@ class ObjWriter {
     assert(find_inconsistency(mesh).empty());
     std::string name = obj::clean_name(mesh.name);
     if (name.empty() && model_.meshes.size() > 1) name = "mesh_" + std::to_string(m + 1);
-    if (name != object_) {
-      object_ = name;
-      write_statement("o", object_);
-    }
-    const MeshPlan plan = obj::plan_mesh(mesh, model_.meshes.size() == 1, dropped_);
+    if (m > 0 || name != object_) write_statement("o", name);
+    object_ = name;
+    instance_ = 1;
+    MeshPlan plan = obj::plan_mesh(mesh, model_.meshes.size() == 1, dropped_);
+    set_turns(plan);
     append_lines(out_, mesh.vertex_count(), threads_, [&](std::string& out, std::size_t v) {
       append_vertex(out, mesh, plan, static_cast<Index>(v));
     });
@@ -283,12 +287,32 @@ class ObjWriter {
     return out;
   }
 
+  void set_turns(MeshPlan& plan) const {
+    plan.turns_v = plan.texcoord && model_.scene.texture_origin == TextureOrigin::upper_left;
+    if (!plan.turns_v || plan.texcoord->type != ComponentType::f32) return;
+    for (std::size_t w = 0; w < plan.used.size() && plan.turns_in_f32; ++w)
+      plan.turns_in_f32 = obj::turns_in_f32(float_component(*plan.texcoord, w, 1));
+  }
+
+  static void append_turned_component(std::string& out, const MeshPlan& plan, const Attribute& a,
+                                      Index w) {
+    out += ' ';
+    if (a.type == ComponentType::f32)
+      obj::append_turned(out, float_component(a, w, 1), plan.turns_in_f32);
+    else
+      obj::append_turned(out, component(a, w, 1));
+  }
+
   static void append_tuple(std::string& out, const MeshPlan& plan, const Attribute& a, Index w) {
     const bool texcoord = &a == plan.texcoord;
     out += texcoord ? "vt" : "vn";
     std::size_t components = std::min<std::size_t>(a.count, 3);
     if (texcoord && plan.present && !plan.has(w, kHasTexV)) components = 1;
-    for (std::size_t c = 0; c < components; ++c) append_component(out, a, w, c);
+    for (std::size_t c = 0; c < components; ++c)
+      if (texcoord && c == 1 && plan.turns_v)
+        append_turned_component(out, plan, a, w);
+      else
+        append_component(out, a, w, c);
     if (texcoord && plan.texw && components == 2 && plan.has(w, kHasTexW))
       append_component(out, *plan.texw, w, 0);
     out += '\n';
@@ -334,7 +358,10 @@ class ObjWriter {
     assert(group.material == kNone || group.material < material_names_.size());
     const obj::GroupName name = obj::split_group_name(group.name);
     const std::string object = obj::clean_name(name.object);
-    change(object_, object.empty() ? mesh_object : object, "o");
+    const std::string& wanted = object.empty() ? mesh_object : object;
+    if (wanted != object_ || name.instance != instance_) write_statement("o", wanted);
+    object_ = wanted;
+    instance_ = name.instance;
     change(group_, obj::clean_group(name.group), "g");
     change(material_, group.material == kNone ? std::string() : material_names_[group.material],
            "usemtl");
@@ -376,6 +403,7 @@ class ObjWriter {
   // Lines written so far, and the state in force.
   std::uint64_t vertex_count_ = 0, texcoord_count_ = 0, normal_count_ = 0;
   std::string object_, group_, material_;
+  Index instance_ = 1;           ///< of the object among those of its name
   std::int64_t smoothing_ = -1;  ///< -1: nothing said yet
 };
 

@@ -17,6 +17,8 @@ struct MeshPlan {
   const Attribute* present = nullptr;
   std::vector<bool> used;           ///< wedges that a corner names, or all of a cloud
   std::vector<Index> vertex_wedge;  ///< a wedge of each vertex
+  bool turns_v = false;             ///< texture coordinates are from the upper left
+  bool turns_in_f32 = true;         ///< each v of floats, see obj::turns_in_f32()
   bool cloud = false;               ///< no corners in the file: the n-th vn is the n-th v's
 
   bool has(std::size_t wedge, ObjPresent what) const {

@@ -5,6 +5,7 @@
 #include "core/file.h"
 #include "core/scene.h"
 #include "formats/obj/geometry.h"
+#include "formats/obj/obj.h"
 
 namespace pstrips::inline formats::obj {
 
@@ -37,6 +38,10 @@ inline bool is_continued(std::string_view line) {
   return line.ends_with('\\') || line.ends_with("\\\r");
 }
 
+/// Whether the statement of the line [begin, end) goes on in the next: it ends in a backslash and
+/// is no comment. A name that ends in one, of a folder for instance, does not swallow a statement.
+bool goes_on(std::string_view text, std::size_t begin, std::size_t end, char line_end);
+
 inline constexpr std::string_view kNote = "# note: ";
 
 /// Text that one thread takes at a time: about a millisecond of work.
@@ -44,6 +49,6 @@ inline constexpr std::size_t kRunBytes = 256 << 10;
 
 /// read_obj() with runs of another size than kRunBytes, so that tests need no long files.
 Result<Model> read_obj_in_runs(ByteView file, const ReadFile& read_file, const Limits& limits,
-                               std::size_t run_bytes);
+                               std::size_t run_bytes, const ObjReadOptions& options = {});
 
 }  // namespace pstrips::inline formats::obj

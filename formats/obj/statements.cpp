@@ -19,16 +19,17 @@ namespace {
 class StatementReader {
  public:
   StatementReader(ByteView file, const ReadFile& read_file, const Limits& limits,
-                  std::size_t run_bytes)
+                  const ObjReadOptions& options, std::size_t run_bytes)
       : text_(as_text(file)),
         limits_(limits),
+        options_(options),
         run_bytes_(run_bytes),
-        libraries_(read_file, limits) {}
+        libraries_(read_file, limits, options) {}
 
   Result<Statements> read() && {
     if (!expect_room() || !read_lines_of_file() || !check_references())
       return tl::unexpected(*error_);
-    out_.object = object_;
+    out_.object = object_name_;
     out_.libraries = libraries_.text();
     out_.missing_libraries = libraries_.missing();
     return std::move(out_);
@@ -78,7 +79,7 @@ class StatementReader {
     std::string_view line = text_.substr(at, end - at);
     line_at_ = at;
     cursor_.at_last = end == text_.size();
-    if (is_continued(line) && !trimmed(line).starts_with('#')) {
+    if (goes_on(text_, at, end, line_end_)) {
       end = join_lines(end);
       line = joined_;
     }
@@ -143,6 +144,8 @@ class StatementReader {
       if (!read_line(at)) return false;
     }
     append(run.geometry, from, extent_of(run.geometry));
+    geometry_.texcoords.missing += run.geometry.texcoords.missing;
+    geometry_.normals.missing += run.geometry.normals.missing;
     return true;
   }
 
@@ -208,7 +211,7 @@ class StatementReader {
     if (word == "l") return known() && read_face(FaceKind::lines);
     if (word == "p") return known() && read_face(FaceKind::points);
     if (word == "g") return known() && set_name(group_, clean_group(rest()));
-    if (word == "o") return known() && set_name(object_, clean_name(rest()));
+    if (word == "o") return known() && set_object(clean_name(rest()));
     if (word == "usemtl") return known() && set_name(material_, clean_name(rest()));
     if (word == "s" && read_smoothing()) return known();
     if (word == "mtllib") return known() && read_mtllib();
@@ -277,6 +280,13 @@ class StatementReader {
     return true;
   }
 
+  /// Each statement begins another object, which counts once it has a face.
+  bool set_object(std::string name) {
+    set_name(object_name_, std::move(name));
+    object_ = object_name_ == kEmptyName ? 0 : kNone;
+    return true;
+  }
+
   void end_face(FaceKind kind) {
     Index& group = current_group_[static_cast<std::size_t>(kind)];
     if (group == kNone) group = find_group(kind);
@@ -286,12 +296,16 @@ class StatementReader {
   }
 
   Index find_group(FaceKind kind) {
+    if (object_ == kNone) {
+      object_ = static_cast<Index>(out_.objects.size());
+      out_.objects.push_back({object_name_, ++instances_[object_name_]});
+    }
     const GroupKey key{object_, group_, material_, kind};
     const auto [at, is_new] = group_ids_.emplace(key, static_cast<Index>(out_.groups.size()));
     if (!is_new) return at->second;
     out_.groups.push_back(key);
     // An object's name is repeated in each of its groups: a long one must not multiply.
-    group_name_bytes_ += out_.names[object_].size() + out_.names[group_].size();
+    group_name_bytes_ += out_.names[object_name_].size() + out_.names[group_].size();
     charge(kNameBytes);
     if (out_.groups.size() > limits_.meshes)
       refuse(ErrorCode::over_limit, "more groups than the limit allows");
@@ -313,17 +327,24 @@ class StatementReader {
   /// When a reference leads nowhere, a second reader that knows the totals finds the first such.
   bool check_references() {
     const auto in_range = [](const Referenced& lines) { return lines.largest <= lines.count; };
-    if (in_range(geometry_.vertices) && in_range(geometry_.texcoords) &&
-        in_range(geometry_.normals))
-      return true;
+    if (!in_range(geometry_.texcoords))
+      remove_past_end(geometry_.texcoords, geometry_.corner_texcoord);
+    if (!in_range(geometry_.normals)) remove_past_end(geometry_.normals, geometry_.corner_normal);
+    if (in_range(geometry_.vertices)) return true;
     const ReadFile no_file;
-    StatementReader second(as_bytes(text_), no_file, limits_, run_bytes_);
+    StatementReader second(as_bytes(text_), no_file, limits_, options_, run_bytes_);
     second.geometry_.vertices.total = geometry_.vertices.count;
-    second.geometry_.texcoords.total = geometry_.texcoords.count;
-    second.geometry_.normals.total = geometry_.normals.count;
     second.read_lines_of_file();
     error_ = std::move(second.error_);
     return false;
+  }
+
+  static void remove_past_end(Referenced& lines, std::vector<Index>& corners) {
+    for (Index& line : corners)
+      if (line != kNone && line >= lines.count) {
+        line = kNone;
+        ++lines.missing;
+      }
   }
 
   static constexpr std::uint64_t kNameBytes = 160;
@@ -334,6 +355,7 @@ class StatementReader {
 
   std::string_view text_;
   const Limits& limits_;
+  const ObjReadOptions& options_;
   std::optional<Error> error_;
   std::uint64_t charged_for_names_ = 0;
   const std::size_t run_bytes_;
@@ -352,7 +374,9 @@ class StatementReader {
   Statements out_;
   Geometry& geometry_ = out_.geometry;
   std::uint32_t smoothing_ = 0;
-  Index object_ = out_.names.id(""), group_ = kEmptyName, material_ = kEmptyName;
+  Index object_name_ = out_.names.id(""), group_ = kEmptyName, material_ = kEmptyName;
+  Index object_ = 0;                  ///< number of the current one; kNone: it has no face yet
+  std::map<Index, Index> instances_;  ///< objects that have a face, by name
   std::array<Index, 3> current_group_{kNone, kNone, kNone};  ///< by kind; of the state in force
   std::map<GroupKey, Index> group_ids_;
   std::uint64_t group_name_bytes_ = 0;
@@ -361,8 +385,8 @@ class StatementReader {
 }  // namespace
 
 Result<Statements> read_statements(ByteView file, const ReadFile& read_file, const Limits& limits,
-                                   std::size_t run_bytes) {
-  return StatementReader(file, read_file, limits, run_bytes).read();
+                                   const ObjReadOptions& options, std::size_t run_bytes) {
+  return StatementReader(file, read_file, limits, options, run_bytes).read();
 }
 
 }  // namespace pstrips::inline formats::obj

@@ -7,6 +7,7 @@
 
 #include "core/file.h"
 #include "formats/obj/geometry.h"
+#include "formats/obj/obj.h"
 
 namespace pstrips::inline formats::obj {
 
@@ -32,7 +33,14 @@ class Names {
   std::vector<const std::string*> names_;  // map nodes stay where they are
 };
 
-/// What faces of a group have in common, by number of name: object, group, material; and the kind.
+/// One object of a file; several may have one name.
+struct NamedObject {
+  Index name = 0;
+  Index instance = 1;  ///< among those of the name that have a face, from 1
+};
+
+/// What faces of a group have in common: the number of its object, those of the names of group and
+/// material, and the kind.
 using GroupKey = std::tuple<Index, Index, Index, FaceKind>;
 inline constexpr Index kEmptyName = 0;
 
@@ -44,13 +52,15 @@ struct Statements {
   bool has_smoothing = false;
   Names names;
   std::vector<GroupKey> groups;              ///< in order of use
-  Index object = kEmptyName;                 ///< the last that was named
+  std::vector<NamedObject> objects{{}};      ///< number 0 stands for none
+  Index object = kEmptyName;                 ///< name of the last, with faces or without
   std::string header, notes;                 ///< lines, as obj.h says
   std::string libraries, missing_libraries;  ///< text and names, as obj.h says
 };
 
-/// Reads a file statement by statement. References are in range.
+/// Reads a file statement by statement. References are in range; what a corner says of a vt or vn
+/// line that is not there counts as nothing said.
 Result<Statements> read_statements(ByteView file, const ReadFile& read_file, const Limits& limits,
-                                   std::size_t run_bytes);
+                                   const ObjReadOptions& options, std::size_t run_bytes);
 
 }  // namespace pstrips::inline formats::obj

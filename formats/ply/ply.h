@@ -31,6 +31,7 @@ namespace pstrips::inline formats {
 /// - the faces' texcoord lists: wedges with TEXCOORD_0, when every face has one pair a corner.
 ///   Equal pairs at a vertex are one wedge; wedges ascend by vertex, then by first use; a vertex
 ///   without a face has one wedge with zeros.
+/// - texture coordinates are from the lower left corner of an image.
 /// - `comment TextureFile`: an image and a material each. With `texnumber` each has its group.
 /// - edges with vertex1 and vertex2 alone: lines of two corners, in a group behind the others,
 /// whose
@@ -63,6 +64,9 @@ struct PlyWriteOptions {
 /// Attributes that all wedges of a vertex share are vertex properties. Where wedges differ in
 /// TEXCOORD_0 alone, faces get a texcoord list. Otherwise each wedge is a row, and a property
 /// wedge_vertex under a comment of ours lets read_ply find the vertices again.
+///
+/// Texture coordinates are written as they are: from the lower left is for the caller to see to,
+/// with_texture_origin().
 ///
 /// PLY has no words for nodes, names, embedded images, materials beyond a texture's name: they are
 /// not written. Normalized integer positions are written as doubles in model units.

@@ -130,7 +130,7 @@ class HeaderWriter {
   Index texture_of(const Group& group) const {
     const auto& materials = model_.scene.materials;
     if (group.material >= materials.size()) return kNone;
-    const Index image = materials[group.material].base_color_image;
+    const Index image = materials[group.material].image(MapRole::base_color);
     return image < image_number_.size() ? image_number_[image] : kNone;
   }
 

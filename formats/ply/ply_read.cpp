@@ -30,6 +30,7 @@ class ModelReader {
     Result<Header> header = parse_header(file_, limits_);
     if (!header) return tl::unexpected<Error>(header.error());
     kept_.header = *std::move(header);
+    model_.scene.texture_origin = TextureOrigin::lower_left;
     if (!plan() || !expect_room() || !read_body() || !keep_rest())
       return tl::unexpected<Error>(std::move(error_));
     if (has_mesh_) {

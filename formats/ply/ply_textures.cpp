@@ -23,7 +23,7 @@ void add_textures(const std::vector<std::string>& remarks, Scene& scene) {
     if (name.empty()) continue;
     Material material;
     material.metallic = 0;
-    material.base_color_image = static_cast<Index>(scene.images.size());
+    material.set_map({.image = static_cast<Index>(scene.images.size())});
     scene.materials.push_back(std::move(material));
     scene.images.push_back({.name = {}, .uri = std::string(name), .mime_type = {}, .data = {}});
   }

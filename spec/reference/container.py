@@ -354,6 +354,8 @@ def check_scene(chunk, meshes):
     """sCNE (container.md 9): the decoded meshes do not depend on it."""
     payload = Payload(chunk.payload)
     payload.string()
+    payload.one_of(2)  # texture_origin
+    payload.zeros(3)
     for node in range(payload.u32()):
         payload.string()
         parent = payload.u32()
@@ -368,13 +370,20 @@ def read_materials(chunk):
     """mTRL (container.md 9): (number of materials, of each image whether it is embedded)."""
     payload = Payload(chunk.payload)
     materials = payload.u32()
-    base_color_images = []
+    images_of_maps = []
     for _ in range(materials):
         payload.string()
-        payload.take((4 + 3 + 1 + 1) * 8)
-        base_color_images.append(payload.u32())
+        payload.take((4 + 3 + 1 + 1 + 1) * 8)
+        payload.one_of(3)  # alpha_mode
         payload.one_of(2)
-        payload.zeros(3)
+        payload.zeros(2)
+        roles = []
+        for _ in range(payload.u32()):
+            roles.append(payload.one_of(8))
+            payload.zeros(3)
+            images_of_maps.append(payload.u32())
+            payload.take(4 + (1 + 2 + 2 + 1) * 8)
+        require(all(a < b for a, b in zip(roles, roles[1:])), "M-054")
     embedded = []
     for _ in range(payload.u32()):
         for _ in range(3):
@@ -382,7 +391,7 @@ def read_materials(chunk):
         embedded.append(payload.one_of(2))
         payload.zeros(3)
     payload.end()
-    require(all(i == NONE or i < len(embedded) for i in base_color_images), "M-052")
+    require(all(i < len(embedded) for i in images_of_maps), "M-052")
     return materials, embedded
 
 

@@ -120,7 +120,7 @@ void add_textures(const Model& model, const fs::path& path, Subject& subject) {
   for (const Group& group : subject.mesh.groups) {
     Index texture = lone;
     if (group.material != kNone) {
-      const Index image = model.scene.materials[group.material].base_color_image;
+      const Index image = model.scene.materials[group.material].image(MapRole::base_color);
       if (image != kNone) texture = image_texture[image];
     }
     subject.group_texture.push_back(texture);

@@ -170,7 +170,7 @@ const Probe kProbes[] = {
      }},
     {Feature::embedded_images,
      [] {
-       Model model = with_material({.name = "textured", .base_color_image = 0});
+       Model model = with_material({.name = "textured", .maps = {{.image = 0}}});
        model.scene.images.push_back(
            {.name = "", .uri = "", .mime_type = "image/png", .data = Bytes(3)});
        return model;

@@ -373,8 +373,17 @@ void make_packets(RandomSource& random, const ProgressiveOptions& options,
 void make_scene(RandomSource& random, ProgressiveStrips& strips) {
   strips.generator = "tests";
   Scene& scene = strips.scene;
-  scene.materials = {{.name = "red", .base_color = {1, 0.25, 0, 1}, .base_color_image = 1},
+  scene.materials = {{.name = "red", .base_color = {1, 0.25, 0, 1}, .maps = {{.image = 1}}},
                      {.name = "glow", .emissive = {0.5, 0.5, 2}, .double_sided = true}};
+  scene.materials[1].alpha_mode = AlphaMode::mask;
+  scene.materials[1].set_map({.role = MapRole::normal,
+                              .image = 0,
+                              .texcoord = 1,
+                              .strength = 0.5,
+                              .offset = {0.25, -1},
+                              .scale = {2, 3},
+                              .rotation = -1.5});
+  scene.texture_origin = TextureOrigin::lower_left;
   scene.images = {{"wood", "textures/wood.png", "", {}}, {"", "", "image/png", {}}};
   random.append(scene.images[1].data, 5);
   scene.nodes.resize(2);

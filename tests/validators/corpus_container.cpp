@@ -116,7 +116,7 @@ constexpr Case kCases[] = {
     {"PS1030_version_2.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PSHD", 0, std::uint16_t{2}); }); }},
     {"PS1030_version_1.pstripx",
-     [] { return reworded(roof(), "<pstrips version=\"2.0\"", "<pstrips version=\"1.0\""); }},
+     [] { return reworded(roof(), "<pstrips version=\"2.2\"", "<pstrips version=\"1.0\""); }},
     {"PS1031_profile_2.pstrip",
      [] { return recut(roof(), [](ChunkFile& f) { f.put("PSHD", 4, std::uint8_t{2}); }); }},
     {"PS1031_profile_unheard_of.pstripx",

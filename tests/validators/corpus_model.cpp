@@ -213,13 +213,18 @@ constexpr Case kCases[] = {
      [] { return edited(scene(), [](ProgressiveStrips& s) { s.scene.nodes[0].meshes[0] = 2; }); }},
     {"PS2052_no_such_image.pstrip",
      [] {
-       return edited(scene(),
-                     [](ProgressiveStrips& s) { s.scene.materials[0].base_color_image = 3; });
+       return edited(scene(), [](ProgressiveStrips& s) { s.scene.materials[0].maps[0].image = 3; });
      }},
     {"PS2053_key_twice.pstrip",
      [] {
        return edited(scene(),
                      [](ProgressiveStrips& s) { s.scene.foreign[1].key = s.scene.foreign[0].key; });
+     }},
+    {"PS2054_role_twice.pstrip",
+     [] {
+       return edited(scene(), [](ProgressiveStrips& s) {
+         s.scene.materials[0].maps.push_back(s.scene.materials[0].maps[0]);
+       });
      }},
     {"PS2060_triangles_of_a_group.pstrip",
      [] { return edited_mesh(growing(), [](ProgressiveMesh& m) { m.triangle_group[0] = 1; }); }},

@@ -25,7 +25,7 @@ constexpr Case kCases[] = {
      [] { return reworded(roof(), "<packet", "<group/><packet"); }},
     {"PS5004_later_minor_version.pstripx",
      [] {
-       return reworded(roof(), "version=\"2.0\" profile=\"plain\"",
+       return reworded(roof(), "version=\"2.2\" profile=\"plain\"",
                        "version=\"2.7\" profile=\"plain\" colour=\"red\"");
      }},
     {"PS5010_base_of_another_mesh.pstripx",

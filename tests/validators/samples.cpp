@@ -227,7 +227,7 @@ ProgressiveStrips scene() {
     strips.packets.back().mesh = 1;
   }
   strips.meshes[0].groups[0].material = 0;
-  strips.scene.materials = {{.name = "brick", .base_color_image = 1}};
+  strips.scene.materials = {{.name = "brick", .maps = {{.image = 1}}}};
   strips.scene.images = {{"sky", "sky.png", "image/png", {}},
                          {"wall", "", "image/png", bytes_of<std::uint8_t>({1, 2, 3})},
                          {"door", "", "image/png", bytes_of<std::uint8_t>({4})}};

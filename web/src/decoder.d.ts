@@ -41,7 +41,10 @@ export interface MaterialDescription {
   emissive: [number, number, number];
   metallic: number;
   roughness: number;
-  /** Into the images of the scene. */
+  /** With the alpha mode "mask". */
+  alphaCutoff: number;
+  alphaMode: "opaque" | "mask" | "blend";
+  /** Of the base colour, into the images of the scene. */
   image?: number;
   doubleSided: boolean;
 }
@@ -58,7 +61,10 @@ export interface NodeDescription {
 export interface SceneDescription {
   profile: "plain" | "compact";
   packets: number;
+  /** The corner of an image at which texture coordinates are (0, 0). */
+  textureOrigin: "upperLeft" | "lowerLeft";
   materials: MaterialDescription[];
+  /** A URI is plain text, not percent-encoded. */
   images: { name: string; uri: string; mimeType: string }[];
   /** Empty: each mesh stands once, where its positions say. */
   nodes: NodeDescription[];

@@ -27,7 +27,8 @@ function materialOf(description, mesh, textures) {
   material.color.setRGB(r, g, b);
   material.emissive = new Color(...description.emissive);
   material.opacity = a;
-  material.transparent = a < 1;
+  material.transparent = description.alphaMode === "blend";
+  if (description.alphaMode === "mask") material.alphaTest = description.alphaCutoff;
   if (description.image !== undefined) (textures[description.image] ??= []).push(material);
   return material;
 }
@@ -129,18 +130,14 @@ function sceneOf(scene, meshes, group) {
 }
 
 // Files may name images beside themselves and nowhere else.
-function isBeside(uri) {
-  let plain = uri;
-  try {
-    plain = decodeURIComponent(uri);
-  } catch {
-    return false;
-  }
+function isBeside(plain) {
   return plain !== "" && !/^([a-z][a-z0-9+.-]*:|[/\\])/i.test(plain) && !plain.split(/[/\\]/).includes("..");
 }
 
-async function showImage(image, blob, materials) {
-  const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none" });
+async function showImage(image, blob, materials, origin) {
+  // A texture's first row is the one at v = 0.
+  const imageOrientation = origin === "lowerLeft" ? "flipY" : "none";
+  const bitmap = await createImageBitmap(blob, { colorSpaceConversion: "none", imageOrientation });
   const texture = new Texture(bitmap);
   texture.name = image.name;
   texture.flipY = false;
@@ -240,7 +237,7 @@ export class PStripLoader extends Loader {
     const response = await source;
     const total = Number(response.headers?.get("content-length") ?? response.byteLength ?? 0);
     const textures = {}, state = group.userData.pstrips, images = [];
-    let meshes;
+    let meshes, scene;
     for await (const level of this.decoder.patches(response, { ...this.limits, signal: stop.signal })) {
       const first = !meshes;
       meshes ??= level.scene.meshes.map((description) => new LiveMesh(description, level.scene, textures));
@@ -248,30 +245,32 @@ export class PStripLoader extends Loader {
       await this.spread(meshes, stop.signal, first);
       if (first) {
         sceneOf(level.scene, meshes, group);
-        images.push(...this.fetchImages(level.scene.images, textures, response.url));
+        scene = level.scene;
       }
       for (const { image, data } of level.images) {
         const description = level.scene.images[image];
-        images.push(showImage(description, new Blob([data], { type: description.mimeType }), textures[image] ?? []));
+        images.push(showImage(description, new Blob([data], { type: description.mimeType }), textures[image] ?? [], scene.textureOrigin));
+        delete textures[image];
       }
       const { triangles, vertices, bytes, error, complete } = level;
       Object.assign(state, { triangles, vertices, bytes, error, complete });
       onProgress?.({ type: "progress", lengthComputable: total > 0, loaded: bytes, total, triangles, vertices, error, complete });
       if (first) onBase(group);
     }
+    if (scene) images.push(...this.fetchImages(scene, textures, response.url));
     await Promise.all(images);
     return group;
   }
 
   // Those that stand beside the file; an image that does not come leaves its materials without one.
-  fetchImages(images, textures, base) {
-    const wanted = images.map((image, i) => [image, textures[i]]).filter(([image, materials]) => materials && isBeside(image.uri));
+  fetchImages(scene, textures, base) {
+    const wanted = scene.images.map((image, i) => [image, textures[i]]).filter(([image, materials]) => materials && isBeside(image.uri));
     return wanted.map(async ([image, materials]) => {
-      const url = new URL(image.uri, this.resourcePath || base || globalThis.location?.href);
+      const url = new URL(image.uri.split("/").map(encodeURIComponent).join("/"), this.resourcePath || base || globalThis.location?.href);
       try {
         const response = await fetch(url);
         if (!response.ok) throw new Error(`${response.status} ${response.statusText}`);
-        await showImage(image, await response.blob(), materials);
+        await showImage(image, await response.blob(), materials, scene.textureOrigin);
       } catch (error) {
         console.warn(`pstrips: no texture from ${url}: ${error.message}`);
         this.manager.itemError(url.href);

@@ -171,9 +171,10 @@ export class WasmDecoder {
     return {
       profile: ["plain", "compact"][u32()],
       packets: u32(),
+      textureOrigin: ["upperLeft", "lowerLeft"][u32()],
       materials: list(() => ({
         name: string(), baseColor: times(4, f64), emissive: times(3, f64), metallic: f64(), roughness: f64(),
-        image: index(), doubleSided: u32() === 1,
+        alphaCutoff: f64(), alphaMode: ["opaque", "mask", "blend"][u32()], image: index(), doubleSided: u32() === 1,
       })),
       images: list(() => ({ name: string(), uri: string(), mimeType: string() })),
       nodes: list(() => ({ name: string(), parent: index(), matrix: times(16, f64), meshes: list(u32) })),

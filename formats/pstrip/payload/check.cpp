@@ -401,9 +401,13 @@ bool check_scene(const ProgressiveStrips& strips, FaultSink& faults) {
       return broken(Fault::node_mesh, Field::node, i);
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Index image = scene.materials[i].base_color_image;
-    if (image != kNone && image >= scene.images.size())
-      return broken(Fault::material_image, Field::material, i);
+    const std::vector<TextureMap>& maps = scene.materials[i].maps;
+    for (const TextureMap& map : maps)
+      if (map.image >= scene.images.size())
+        return broken(Fault::material_image, Field::material, i);
+    if (std::ranges::adjacent_find(maps, std::ranges::greater_equal{}, &TextureMap::role) !=
+        maps.end())
+      return broken(Fault::material_map_twice, Field::material, i);
   }
   return true;
 }

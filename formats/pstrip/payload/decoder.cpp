@@ -59,9 +59,8 @@ bool PayloadDecoder::read(const Chunk& chunk, ReadIo& io) {
   return true;
 }
 
-bool PayloadDecoder::goes_on(Fault fault, std::string found) {
-  return faults_.report(fault, {.field = Field::chunk, .element = chunk_->number},
-                        std::move(found));
+bool PayloadDecoder::goes_on(Fault fault, std::string text) {
+  return faults_.report(fault, {.field = Field::chunk, .element = chunk_->number}, std::move(text));
 }
 
 bool PayloadDecoder::refuse(Fault fault, std::string found) {
@@ -119,6 +118,7 @@ bool PayloadDecoder::read_scene(ReadIo& io) {
   if (!io.finish() || !within(read.scene.nodes.size(), "nodes", limits_.meshes, here)) return false;
   strips_.generator = std::move(read.generator);
   strips_.scene.nodes = std::move(read.scene.nodes);
+  strips_.scene.texture_origin = read.scene.texture_origin;
   return true;
 }
 

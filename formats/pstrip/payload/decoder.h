@@ -79,7 +79,7 @@ class PayloadDecoder {
   bool checks_model() const { return checks_ == PayloadChecks::model; }
   /// Reports a fault of the current chunk.
   bool refuse(Fault fault, std::string found = {});
-  bool goes_on(Fault fault, std::string found = {});
+  bool goes_on(Fault fault, std::string text = {});
   /// Refuses the chunk unless there is no fault.
   bool holds(Fault fault) { return fault == Fault::none || refuse(fault); }
   bool within(std::uint64_t figure, const char* what, std::uint64_t limit, const Where& where);

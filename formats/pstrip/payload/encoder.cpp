@@ -109,9 +109,8 @@ std::size_t PayloadEncoder::elements(ChunkOf of) const {
 }
 
 bool PayloadEncoder::is_needed(const ChunkType& type, std::size_t element) const {
-  const Scene& scene = strips_.scene;
-  if (type == kSceneChunk) return !strips_.generator.empty() || !scene.nodes.empty();
-  if (type == kMaterialsChunk) return !scene.materials.empty() || !scene.images.empty();
+  if (type == kSceneChunk) return has_scene_fields(strips_);
+  if (type == kMaterialsChunk) return has_materials(strips_.scene);
   if (type == kImageChunk) return embedded_[element] != 0;
   if (type == kFineChunk) return geometry_->fine_bytes(static_cast<Index>(element)) != 0;
   bool needed = true;

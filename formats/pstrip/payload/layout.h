@@ -18,7 +18,8 @@ inline constexpr std::size_t kMinStringBytes = 4;
 inline constexpr std::size_t kMinFormatBytes = kMinStringBytes + 4;
 inline constexpr std::size_t kMinGroupBytes = kMinStringBytes + 12;
 inline constexpr std::size_t kMinNodeBytes = kMinStringBytes + 4 + 16 * 8 + 4;
-inline constexpr std::size_t kMinMaterialBytes = kMinStringBytes + 9 * 8 + 8;
+inline constexpr std::size_t kMinMaterialBytes = kMinStringBytes + 10 * 8 + 8;
+inline constexpr std::size_t kMapBytes = 3 * 4 + 6 * 8;
 inline constexpr std::size_t kMinImageBytes = 3 * kMinStringBytes + 4;
 
 // ---- PSHD --------------------------------------------------------------------------------
@@ -141,12 +142,26 @@ void mesh_fields(Io& io, M& mesh, C& counts, Profile profile) {
 template <class Io, class S>
 void scene_fields(Io& io, S& strips) {
   io.string(strips.generator);
+  io.choice(strips.scene.texture_origin, 2);
+  io.zeros(3);
   for (auto& node : io.list(strips.scene.nodes, kMinNodeBytes)) {
     io.string(node.name);
     io.number(node.parent);
     for (auto& x : node.matrix) io.number(x);
     for (auto& mesh : io.list(node.meshes, sizeof(Index))) io.number(mesh);
   }
+}
+
+template <class Io, class M>
+void map_fields(Io& io, M& map) {
+  io.choice(map.role, 8);
+  io.zeros(3);
+  io.number(map.image);
+  io.number(map.texcoord);
+  io.number(map.strength);
+  for (auto& x : map.offset) io.number(x);
+  for (auto& x : map.scale) io.number(x);
+  io.number(map.rotation);
 }
 
 /// embedded  one flag an image: an iMGE chunk brings its data
@@ -158,9 +173,11 @@ void material_fields(Io& io, S& scene, E& embedded) {
     for (auto& x : m.emissive) io.number(x);
     io.number(m.metallic);
     io.number(m.roughness);
-    io.number(m.base_color_image);
+    io.number(m.alpha_cutoff);
+    io.choice(m.alpha_mode, 3);
     io.choice(m.double_sided, 2);
-    io.zeros(3);
+    io.zeros(2);
+    for (auto& map : io.list(m.maps, kMapBytes)) map_fields(io, map);
   }
   auto& images = io.list(scene.images, kMinImageBytes);
   if constexpr (Io::kReads) embedded.resize(images.size());

@@ -17,6 +17,16 @@ namespace pstrips::inline formats {
 /// Keeps every sum of array sizes within 64 bits. [spec/model.md M-006]
 inline constexpr std::size_t kMaxAttributes = 1024;
 
+/// Whether a file needs a sCNE chunk, or a scene element.
+inline bool has_scene_fields(const ProgressiveStrips& strips) {
+  return !strips.generator.empty() || !strips.scene.nodes.empty() ||
+         strips.scene.texture_origin != TextureOrigin::upper_left;
+}
+/// Whether it needs a mTRL chunk, or a materials element.
+inline bool has_materials(const Scene& scene) {
+  return !scene.materials.empty() || !scene.images.empty();
+}
+
 /// Elements that are `end` or more.
 template <class Visit>
 bool all_below(std::span<const Index> list, std::uint64_t end, Visit&& visit) {

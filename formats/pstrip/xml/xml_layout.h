@@ -34,9 +34,22 @@ void node_fields(Io& io, N& node) {
 template <class Io, class S>
 void scene_fields(Io& io, S& strips) {
   io.string("generator", strips.generator);
+  io.word("texture_origin", strips.scene.texture_origin, kTextureOriginNames,
+          Fault::value_undefined);
   io.content();
   io.children("node", "/nodes", strips.scene.nodes,
               [](auto& child, auto& node) { node_fields(child, node); });
+}
+
+template <class Io, class M>
+void map_fields(Io& io, M& map) {
+  io.word("role", map.role, kMapRoleNames, Fault::value_undefined);
+  io.index("image", map.image);
+  io.index("texcoord", map.texcoord);
+  io.real("strength", map.strength);
+  io.reals("offset", map.offset);
+  io.reals("scale", map.scale);
+  io.real("rotation", map.rotation);
 }
 
 template <class Io, class M>
@@ -46,8 +59,12 @@ void material_fields(Io& io, M& material) {
   io.reals("emissive", material.emissive);
   io.real("metallic", material.metallic);
   io.real("roughness", material.roughness);
-  io.index_or_none("base_color_image", material.base_color_image);
+  io.word("alpha_mode", material.alpha_mode, kAlphaModeNames, Fault::value_undefined);
+  io.real("alpha_cutoff", material.alpha_cutoff);
   io.flag("double_sided", material.double_sided);
+  io.content();
+  io.children("map", "/maps", material.maps,
+              [](auto& child, auto& map) { map_fields(child, map); });
 }
 
 template <class Io, class I>
@@ -346,6 +363,7 @@ void tail_fields(Io& io, S& strips) {
 
 /// Of the first version 2 that has all of it.
 inline Index needed_version_minor(const ProgressiveStrips& strips) {
+  if (has_scene_fields(strips) || has_materials(strips.scene)) return 2;
   Index needed = strips.profile == Profile::plain ? 0 : 1;
   for (const ProgressiveMesh& mesh : strips.meshes) {
     if (mesh.encoding == MapEncoding::triangles) needed = std::max(needed, Index{1});
@@ -361,9 +379,9 @@ void document_fields(Io& io, S& strips) {
   io.flag_unless("complete", strips.complete, true);
   io.content();
   auto& scene = strips.scene;
-  io.child_if(!strips.generator.empty() || !scene.nodes.empty(), "scene", "/scene",
+  io.child_if(has_scene_fields(strips), "scene", "/scene",
               [&](auto& child) { scene_fields(child, strips); });
-  io.child_if(!scene.materials.empty() || !scene.images.empty(), "materials", "/scene",
+  io.child_if(has_materials(scene), "materials", "/scene",
               [&](auto& child) { materials_fields(child, scene); });
   io.children("mesh", "/meshes", strips.meshes,
               [&](auto& child, auto& mesh) { mesh_fields(child, mesh, strips.profile); });

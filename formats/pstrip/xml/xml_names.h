@@ -21,6 +21,11 @@ inline constexpr std::array<std::string_view, 2> kEffortNames = {"fast", "small"
 inline constexpr std::array<std::string_view, 3> kFaceKindNames = {"polygons", "lines", "points"};
 inline constexpr std::array<std::string_view, 8> kTypeNames = {"i8",  "u8",  "i16", "u16",
                                                                "i32", "u32", "f32", "f64"};
+inline constexpr std::array<std::string_view, 2> kTextureOriginNames = {"upper_left", "lower_left"};
+inline constexpr std::array<std::string_view, 3> kAlphaModeNames = {"opaque", "mask", "blend"};
+inline constexpr std::array<std::string_view, 8> kMapRoleNames = {
+    "base_color",         "opacity", "metallic",  "roughness",
+    "metallic_roughness", "normal",  "occlusion", "emissive"};
 /// How the data of a foreign entry is written.
 enum class ForeignForm : std::uint8_t { text, base64 };
 inline constexpr std::array<std::string_view, 2> kFormNames = {"text", "base64"};

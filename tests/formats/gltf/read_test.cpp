@@ -259,7 +259,7 @@ TEST(ReadGltf, FillsMaterialsAndImages) {
       R"("pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,)"
       R"("roughnessFactor":0.25,"baseColorTexture":{"index":1}}},{}])"));
   const Scene& scene = model.scene;
-  EXPECT_EQ(scene.images[0].uri, "a%20b.png");
+  EXPECT_EQ(scene.images[0].uri, "a b.png");
   EXPECT_EQ(scene.images[1].mime_type, "image/jpeg");
   EXPECT_EQ(as_text(scene.images[1].data), "\xff\xd8\xff picture");
   EXPECT_EQ(scene.images[2],
@@ -270,7 +270,7 @@ TEST(ReadGltf, FillsMaterialsAndImages) {
   expected.emissive = {1, 0.5, 0};
   expected.metallic = 0.5;
   expected.roughness = 0.25;
-  expected.base_color_image = 2;
+  expected.maps = {{.image = 2}};
   expected.double_sided = true;
   EXPECT_EQ(scene.materials[0], expected);
   EXPECT_EQ(scene.materials[1], Material{});

@@ -197,7 +197,7 @@ TEST(WriteGltf, ANewSceneKeepsNodesMaterialsAndImages) {
   Material material;
   material.name = "wood";
   material.base_color = {0.5, 0.25, 1, 1};
-  material.base_color_image = 1;
+  material.maps = {{.image = 1}};
   model.scene.materials = {material};
   model.scene.images = {{"in", "", "image/png", test::bytes_of<std::uint8_t>({1, 2, 3})},
                         {"", "folder\\a b.png", "", {}},
@@ -211,7 +211,7 @@ TEST(WriteGltf, ANewSceneKeepsNodesMaterialsAndImages) {
   const Scene scene = read_back(*files).scene;
   EXPECT_EQ(scene.materials, model.scene.materials);
   EXPECT_EQ(scene.images[0], model.scene.images[0]);
-  EXPECT_EQ(scene.images[1].uri, "folder/a%20b.png");
+  EXPECT_EQ(scene.images[1].uri, "folder/a b.png");
   EXPECT_NE(as_text(files->main).find(R"("KHR_texture_basisu":{"source":2})"),
             std::string_view::npos);
   ASSERT_EQ(scene.nodes.size(), 4u);  // two meshes at a node make two children

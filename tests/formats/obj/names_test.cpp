@@ -66,6 +66,12 @@ TEST(GroupName, SurvivesAnyObjectAndGroup) {
       const GroupName split = split_group_name(obj_group_name(object, group));
       EXPECT_EQ(split.object, object);
       EXPECT_EQ(split.group, group);
+      EXPECT_EQ(split.instance, 1u);
+      if (object.empty()) continue;
+      const GroupName second = split_group_name(obj_group_name(object, group, 25));
+      EXPECT_EQ(second.object, object);
+      EXPECT_EQ(second.group, group);
+      EXPECT_EQ(second.instance, 25u);
     }
   EXPECT_EQ(obj_group_name("", "g"), "g");
   EXPECT_EQ(obj_group_name("o", ""), "o/");

@@ -32,17 +32,8 @@ constexpr Broken kBroken[] = {
     {"nasty/broken-misc/assimp/malformed.obj", "line 28", "index 0"},
     {"nasty/broken-obj/tinyobj/invalid-relative-texture-index.obj", "line 2", "index out of range"},
     {"nasty/broken-obj/tinyobj/issue-140-zero-face-idx.obj", "line 16", "index 0"},
-    {"nasty/odd-obj/draco/test_wrong_attribute_mapping.obj", "line 4", "index out of range"},
     {"shipped/broken/index.obj", "line 7", "index out of range"},
     {"textured/obj2gltf/box-incomplete-attributes/box-incomplete-positions.obj", "line 29",
-     "index out of range"},
-    {"textured/obj2gltf/box-incomplete-attributes/box-incomplete-uvs.obj", "line 17",
-     "index out of range"},
-    {"textured/obj2gltf/box-missing-attributes/box-missing-attributes.obj", "line 15",
-     "index out of range"},
-    {"textured/tinyobj/catmark_torus_creases0/catmark_torus_creases0.obj", "line 62",
-     "index out of range"},
-    {"textured/tinyobj/smoothing-group-two-squares/smoothing-group-two-squares.obj", "line 21",
      "index out of range"},
 };
 

@@ -18,10 +18,11 @@ bool near(const Attribute& mine, std::size_t i, std::size_t c, double theirs) {
   return std::abs(value - theirs) <= tolerance * std::abs(theirs) + 1e-45;
 }
 
-/// The value of an attribute at a wedge agrees with the peer's tuple; index -1 is none.
+/// The value of an attribute at a wedge agrees with the peer's tuple; an index of nothing is none.
 bool same_tuple(const Attribute* mine, Index wedge, const std::vector<tinyobj::real_t>& theirs,
                 int index, std::size_t width) {
-  if (index < 0) return true;
+  const bool is_there = index >= 0 && width * static_cast<std::size_t>(index) < theirs.size();
+  if (!is_there) return true;
   if (!mine) return false;
   for (std::size_t c = 0; c < width; ++c)
     if (!near(*mine, wedge, c, theirs[width * static_cast<std::size_t>(index) + c])) return false;

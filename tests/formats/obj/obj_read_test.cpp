@@ -194,11 +194,12 @@ TEST(ReadObj, GroupsByObjectGroupMaterialAndKind) {
       "f 1 2 3\no a/b\ng x  y\nusemtl red\nf 1 2 3\ng z\nf 1 2 3\nusemtl blue paint \nf 1 2 3\n"
       "o c\ng x y\nusemtl red\nf 1 2 3\no a/b\nf 1 2 3\ng\nf 1 2 3\n");
   const std::vector<Group> expected = {
-      {"", kNone, FaceKind::polygons},    {"a%2Fb/x y", 0, FaceKind::polygons},
-      {"a%2Fb/z", 0, FaceKind::polygons}, {"a%2Fb/z", 1, FaceKind::polygons},
-      {"c/x y", 0, FaceKind::polygons},   {"a%2Fb/", 0, FaceKind::polygons}};
+      {"", kNone, FaceKind::polygons},     {"a%2Fb/x y", 0, FaceKind::polygons},
+      {"a%2Fb/z", 0, FaceKind::polygons},  {"a%2Fb/z", 1, FaceKind::polygons},
+      {"c/x y", 0, FaceKind::polygons},    {"a%2Fb%n2/x y", 0, FaceKind::polygons},
+      {"a%2Fb%n2/", 0, FaceKind::polygons}};
   EXPECT_EQ(mesh.groups, expected);
-  EXPECT_EQ(mesh.face_group, Indices({0, 1, 2, 3, 4, 1, 5}));
+  EXPECT_EQ(mesh.face_group, Indices({0, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(mesh.name, "");
 }
 
@@ -256,7 +257,7 @@ TEST(ReadObj, ReadsMaterials) {
   EXPECT_DOUBLE_EQ(red.roughness, std::sqrt(2. / 100));
   EXPECT_EQ(red.metallic, 0);
   ASSERT_EQ(model.scene.images.size(), 1u);
-  EXPECT_EQ(model.scene.images[red.base_color_image].uri, "tex/a b.png");
+  EXPECT_EQ(model.scene.images[red.image(MapRole::base_color)].uri, "tex/a b.png");
   const Material& glow = model.scene.materials[1];
   EXPECT_EQ(glow.name, "glow");
   EXPECT_EQ(glow.emissive, (std::array<double, 3>{.5, .5, .5}));
@@ -319,6 +320,24 @@ TEST(ReadObj, PassesOnWhatIsWrongWithACompanion) {
   EXPECT_EQ(model.error(), (Error{ErrorCode::over_limit, "too large", 7, "m.mtl"}));
 }
 
+TEST(ReadObj, TakesTuplesThatAreNotThereForNone) {
+  std::vector<std::string> notes;
+  const auto model = read_obj(as_bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt .5 .5\nvn 0 0 1\n"
+                                       "f 1/1/0 2/2/1 3/-2/1\nf 1/0 2/1/9 3//1\n"),
+                              files({}), {}, {.notes = &notes});
+  ASSERT_TRUE(model);
+  EXPECT_EQ(notes, (std::vector<std::string>{"the vt of 3 corners, which is 0 or names no line",
+                                             "the vn of 2 corners, which is 0 or names no line"}));
+  const Mesh& mesh = model->meshes[0];
+  const Attribute* present = find_attribute(mesh.wedge_attributes, kObjPresent);
+  ASSERT_NE(present, nullptr);
+  const auto has = [&](std::size_t corner) { return values(*present)[mesh.corners[corner]]; };
+  EXPECT_EQ(has(0), kHasTexcoord | kHasTexV);
+  EXPECT_EQ(has(1), kHasNormal);
+  EXPECT_EQ(has(2), kHasNormal);
+  EXPECT_EQ(has(3), 0);
+}
+
 // Bad files.
 
 struct BadFile {
@@ -332,8 +351,6 @@ constexpr BadFile kBadFiles[] = {
     {"index_zero", "v 0 0 0\nf 1 0 1\n", ErrorCode::corrupt, "line 2", 12},
     {"vertex_past_the_end", "v 0 0 0\nf 1 2\n\n", ErrorCode::corrupt, "line 2", 12},
     {"first_of_many_past_the_end", "v 0 0 0\nf 3\nf 9\nf 4\n", ErrorCode::corrupt, "line 2", 10},
-    {"texcoord_past_the_end", "v 0 0 0\nf 1/1\n", ErrorCode::corrupt, "line 2", 12},
-    {"normal_past_the_end", "v 0 0 0\nvn 0 0 1\nf 1//2\n", ErrorCode::corrupt, "line 3", 22},
     {"relative_before_the_start", "v 0 0 0\nf -2\n", ErrorCode::corrupt, "line 2", 10},
     {"huge_index", "v 0 0 0\nf 18446744073709551617\n", ErrorCode::corrupt, "line 2", 10},
     {"index_is_a_fraction", "v 0 0 0\nf 1.5\n", ErrorCode::corrupt, "line 2", 11},

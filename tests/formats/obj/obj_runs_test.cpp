@@ -41,12 +41,13 @@ class RandomText {
   std::string corner() {
     std::string out = std::to_string(1 + below(vertices_ + (below(50) == 0)));
     if (below(12) == 0) out = "-" + out;
-    if (texcoords_ > 0 && below(2) == 0) out += "/" + std::to_string(1 + below(texcoords_));
+    if (texcoords_ > 0 && below(2) == 0)
+      out += "/" + std::to_string(1 + below(texcoords_ + (below(20) == 0)));
     return out;
   }
   std::string line() {
     static const char* const kOthers[] = {
-        "g a",       "g",         "o b",          "usemtl c",        "usemtl", "s 1",      "s off",
+        "g a",       "g\\",       "o b",          "usemtl c\\",      "usemtl", "s 1",      "s off",
         "# comment", "# note: n", "mtllib m.mtl", "mtllib none.mtl", "vp 1 2", "l 1 1",    "p 1",
         "f",         "f 1/",      "v 1 2",        "vn 1 2",          "",       "  v 0 0 1"};
     const std::size_t kind = below(30);

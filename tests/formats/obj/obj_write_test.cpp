@@ -19,6 +19,7 @@ Attribute wedge_attribute(std::string semantic, ComponentType type, std::uint8_t
 Model model_of(std::vector<Mesh> meshes) {
   Model model;
   model.meshes = std::move(meshes);
+  model.scene.texture_origin = TextureOrigin::lower_left;
   return model;
 }
 
@@ -57,9 +58,10 @@ TEST(WriteObj, WritesSeveralMeshesAsObjects) {
   const Mesh& mesh = again->meshes.at(0);
   EXPECT_EQ(mesh.vertex_count(), 14u);
   EXPECT_EQ(mesh.face_count(), 14u);
-  ASSERT_EQ(mesh.groups.size(), 2u);
+  ASSERT_EQ(mesh.groups.size(), 3u);
   EXPECT_EQ(mesh.groups[0].name, "one/");
   EXPECT_EQ(mesh.groups[1].name, "mesh_2/");
+  EXPECT_EQ(mesh.groups[2].name, "one%n2/");
   EXPECT_EQ(mesh.vertex_of(mesh.face(13)[0]), 11u);
 }
 
@@ -99,7 +101,8 @@ TEST(WriteObj, MakesMaterialsThatReadBackTheSame) {
              .emissive = {1, 2, 3},
              .metallic = .7,
              .roughness = .2,
-             .base_color_image = 0};
+             .alpha_mode = AlphaMode::blend,
+             .maps = {{.image = 0}}};
   scene.materials = {a, Material{}, Material{}};
   scene.materials[2].name = "material";
   model.meshes[0].groups = {{"", 0, FaceKind::polygons}, {"", 2, FaceKind::polygons}};
@@ -124,7 +127,8 @@ TEST(WriteObj, KeepsTheOriginalMaterialTextOnlyWhileItHolds) {
   ASSERT_TRUE(model);
   EXPECT_EQ(as_text(write_obj(*model, "n.mtl")->mtl), "# by hand\nnewmtl a\nKd 1 0 0\nillum 2\n");
   model->scene.materials[0].base_color[1] = 1;
-  EXPECT_EQ(as_text(write_obj(*model, "n.mtl")->mtl), "newmtl a\nKd 1 1 0\nPm 0\nPr 1\n");
+  EXPECT_EQ(as_text(write_obj(*model, "n.mtl")->mtl),
+            "newmtl a\nKd 1 1 0\nKs 0.04 0.04 0.04\nNs 0\nillum 2\nPm 0\nPr 1\n");
 }
 
 TEST(WriteObj, RefusesNamesThatAReaderWould) {
@@ -171,6 +175,25 @@ RC_GTEST_PROP(WriteObj, KeepsEveryFaceOfAnyMesh, ()) {
       RC_ASSERT(std::ranges::equal(read.wedge_attributes[0].element(r),
                                    mesh.wedge_attributes[0].element(w)));
     }
+  }
+}
+
+TEST(WriteObj, TurnsTextureCoordinatesFromTheUpperLeft) {
+  Mesh mesh = triangle_mesh({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
+  mesh.wedge_attributes = {wedge_attribute(
+      "TEXCOORD_0", ComponentType::u8, 2, std::vector<std::uint8_t>{0, 0, 255, 255, 51, 51}, true)};
+  Model model = model_of({mesh});
+  model.scene.texture_origin = TextureOrigin::upper_left;
+  EXPECT_NE(text_of(model).find("vt 0 1\nvt 1 0\nvt 0.2 0.8\n"), std::string::npos);
+  // The float nearest to 0.3 is not 1 minus the one nearest to 0.7: a decimal in between is both.
+  model.meshes[0].wedge_attributes = {wedge_attribute(
+      "TEXCOORD_0", ComponentType::f32, 2, std::vector<float>{0, 0.1f, 0, 0.3f, 0, 0.7f})};
+  const std::string text = text_of(model);
+  for (const float v : {0.1f, 0.3f, 0.7f}) {
+    bool found = false;
+    for (std::size_t at = text.find("vt "); at != text.npos; at = text.find("vt ", at + 1))
+      found |= static_cast<float>(1 - std::stod(text.substr(at + 5))) == v;
+    EXPECT_TRUE(found) << v << '\n' << text;
   }
 }
 

@@ -237,7 +237,7 @@ TEST(ReadPly, NamesTexturesAndMaterials) {
   ASSERT_TRUE(model);
   ASSERT_EQ(model->scene.images.size(), 1u);
   EXPECT_EQ(model->scene.images[0].uri, "a b.png");
-  EXPECT_EQ(model->scene.materials.at(0).base_color_image, 0u);
+  EXPECT_EQ(model->scene.materials.at(0).image(MapRole::base_color), 0u);
   EXPECT_EQ(model->meshes[0].groups.at(0).material, 0u);
 }
 

@@ -318,8 +318,8 @@ TEST(WritePly, NamesTexturesAndTheirFaces) {
   model.scene.images = {
       {"", "a.png", "", {}}, {"", "", "image/png", Bytes(3)}, {"", "b.png", "", {}}};
   model.scene.materials.resize(3);
-  model.scene.materials[0].base_color_image = 2;
-  model.scene.materials[2].base_color_image = 1;
+  model.scene.materials[0].set_map({.image = 2});
+  model.scene.materials[2].set_map({.image = 1});
   mesh.groups = {{"first", 0, FaceKind::polygons}, {"second", 2, FaceKind::polygons}};
   mesh.face_group = {0, 1};
   const Model again = read_text(text_of(model));

@@ -306,7 +306,7 @@ TEST(Binary, RefusesBadFieldsAndSaysWhichDemandIsBroken) {
       {"memory_over_limit", kHeaderChunk, 68, 0x100, Fault::over_limit},
       {"vertex_total", kHeaderChunk, 16, 1, Fault::totals},
       {"name_longer_than_payload", kMeshChunk, 0, 0x7fff'ffff, Fault::payload_length},
-      {"scene_nodes", kSceneChunk, 9, 0x7fff'ffff, Fault::payload_length},
+      {"scene_nodes", kSceneChunk, 13, 0x7fff'ffff, Fault::payload_length},
       {"materials", kMaterialsChunk, 0, 0xffff'ffff, Fault::payload_length},
       {"row_too_long_a_number", kIndexChunk, 0, 0xffff'ffff, Fault::payload_length},
       {"row_not_the_shortest", kIndexChunk, 0, 0x80, Fault::payload_length},

@@ -32,7 +32,7 @@ constexpr BadStrips kRows[] = {
     {"parent_after_child", [](auto& s) { s.scene.nodes[0].parent = 1; }, "/scene/nodes/0"},
     {"own_parent", [](auto& s) { s.scene.nodes[1].parent = 1; }, "/scene/nodes/1"},
     {"mesh_of_node", [](auto& s) { s.scene.nodes[1].meshes = {2}; }, "/scene/nodes/1"},
-    {"image", [](auto& s) { s.scene.materials[0].base_color_image = 2; }, "/scene/materials/0"},
+    {"image", [](auto& s) { s.scene.materials[0].maps[0].image = 2; }, "/scene/materials/0"},
     {"no_components", [](auto& s) { s.meshes[0].position.count = 0; }, "/meshes/0/position"},
     {"no_group", [](auto& s) { s.meshes[1].groups.clear(); }, "/meshes/1"},
     {"material", [](auto& s) { s.meshes[1].groups[0].material = 2; }, "/meshes/1/groups/0"},

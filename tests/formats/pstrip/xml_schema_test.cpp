@@ -461,7 +461,7 @@ Elements page_elements() {
   return elements;
 }
 
-constexpr std::size_t kElements = 39;
+constexpr std::size_t kElements = 40;
 
 TEST(XmlSchema, NamesWhatTheLayoutNames) {
   const Elements layout = layout_elements();
@@ -489,7 +489,7 @@ TEST(XmlPage, HasTheWordsOfTheLayout) {
         std::ranges::replace(words, '|', ' ');
         layout.insert(name + ": " + words);
       }
-  EXPECT_EQ(page.size(), 6u);
+  EXPECT_EQ(page.size(), 9u);
   EXPECT_EQ(differences(page, layout), Lines{});
 }
 
