@@ -489,7 +489,7 @@ TEST(XmlPage, HasTheWordsOfTheLayout) {
         std::ranges::replace(words, '|', ' ');
         layout.insert(name + ": " + words);
       }
-  EXPECT_EQ(page.size(), 9u);
+  EXPECT_EQ(page.size(), 10u);
   EXPECT_EQ(differences(page, layout), Lines{});
 }
 
