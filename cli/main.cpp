@@ -105,7 +105,8 @@ int main(int argc, char** argv) {
   app.fallthrough();
 
   const Command commands[] = {add_convert(app), add_validate(app), add_inspect(app),
-                              add_extract(app), add_compare(app),  add_stripify(app), add_render(app), add_view(app)};
+                              add_extract(app), add_compare(app),  add_stripify(app),
+                              add_render(app),  add_view(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

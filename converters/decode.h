@@ -38,7 +38,7 @@ Result<Model> decode(ProgressiveStrips&& strips, std::size_t packets);
 /// A level that may end inside a packet.
 struct SplitLevel {
   std::size_t packets = 0;           ///< whole ones
-  std::vector<Index> vsplits;        ///< of each mesh
+  std::vector<Index> vsplits{};      ///< of each mesh
   Index more_vsplits = 0;            ///< of them, those of the packet after
   std::uint64_t more_triangles = 0;  ///< that these bring
 };

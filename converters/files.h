@@ -61,7 +61,7 @@ struct SaveOptions {
   bool strip_swaps = false;    ///< glTF strips: they may turn by a repeated index
   unsigned threads = 0;        ///< see thread_count(); the bytes are the same
   bool transforms = true;      ///< apply nodes where the format has none, see place_meshes()
-  Limits limits;               ///< what the copies that nodes make may take
+  Limits limits{};             ///< what the copies that nodes make may take
   /// Writes nothing when anything is left out: SavedFiles::files is empty then.
   bool strict = false;
   /// What was left out on the way here: it stands first in the notes and counts for `strict`.

@@ -233,7 +233,7 @@ int report(const pstrips::Error& error) {
 }
 
 int draw_levels(std::FILE* file, std::FILE* out) {
-  std::array<std::byte, 256> slice;
+  std::array<std::byte, 64> slice;
   Viewer viewer;
   pstrips::StreamDecoder decoder;
   while (const std::size_t arrived = std::fread(slice.data(), 1, slice.size(), file)) {

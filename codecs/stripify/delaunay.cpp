@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "codecs/triangulate/predicates.h"
 #include "codecs/stripify/random.h"
+#include "codecs/triangulate/predicates.h"
 
 namespace pstrips::inline codecs {
 namespace {

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "codecs/measure/measure.h"
+#include "codecs/render/rasterizer.h"
 #include "codecs/triangulate/triangulate.h"
 #include "codecs/vsplit/level.h"
 #include "converters/encode.h"
@@ -32,7 +33,6 @@
 #include "core/file.h"
 #include "tests/support/appearance.h"
 #include "tests/support/paths.h"
-#include "codecs/render/rasterizer.h"
 #include "tests/support/seamed_meshes.h"
 
 namespace pstrips::bench {

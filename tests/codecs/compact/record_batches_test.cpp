@@ -246,7 +246,8 @@ TEST(RecordBatches, BatchesOfAnyShare) {
   const CollapseSequence sequence = random_collapses(mesh, triangulate(mesh), 1, Placement::subset);
   for (const double share : {0.001, 0.1, 0.5, 1.0})
     for (const double window : {0.1, 1.0, 2.0})
-      expect_exact(mesh, sequence, {.schedule = {{share, 1}, {share, 1}, 0.5}, .window = window});
+      expect_exact(mesh, sequence,
+                   {.schedule = {{share, 1}, {share, 1}, {share, 1}, 0.5}, .window = window});
 }
 
 // A level shows of a seam what the collapses left of it: nothing is reassigned where edges along
