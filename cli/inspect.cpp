@@ -38,6 +38,7 @@ struct Report {
   std::optional<MeshStatistics> statistics;  // of a plain model
   std::size_t meshes = 0, materials = 0, images = 0, nodes = 0;
   std::vector<std::string> attributes;
+  std::vector<std::string> notes;  // of the reader
   BoundingBox box;
   bool complete = true;
   std::optional<Error> error;
@@ -123,6 +124,7 @@ Report make_report(const Options& options) {
     report.parts = PartTable(read_chunks(bytes->view()), options.limits.limits);
   auto file = load(*bytes, options.input,
                    {.limits = options.limits.limits, .allow_prefix = true, .text_options = {}});
+  if (file) report.notes = file->notes;
   if (!file)
     report.error = file.error();
   else if (file->is_progressive())
@@ -328,6 +330,7 @@ void print_csv(std::ostream& out, const Report& r) {
 
 ExitCode run(const Options& options, const Streams& io) {
   const Report inspected = make_report(options);
+  note(io, options.input, inspected.notes);
   if (options.format.json()) print_json(io.out, inspected);
   if (inspected.error) return report(io, *inspected.error, options.input);
   if (options.format.csv())

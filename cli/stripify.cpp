@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -35,6 +36,13 @@ struct Options {
   LimitOptions limits;
 
   const std::string& input() const { return inputs[0]; }
+  /// A second file that is not there yet is the output, as it is of other commands.
+  void take_output() {
+    if (compare || output.given() || inputs.size() != 2 || std::filesystem::exists(inputs[1]))
+      return;
+    output.path = inputs[1];
+    inputs.pop_back();
+  }
   std::string algorithm_or_best() const { return algorithm.empty() ? "best" : algorithm; }
 };
 
@@ -113,7 +121,8 @@ Result<void> check_command_line(const Options& options) {
     return options.output.given() ? Result<void>(refuse("--output does nothing with --compare"))
                                   : Result<void>();
   if (options.inputs.size() > 1)
-    return refuse("several models are for --compare; the output is named by -o");
+    return refuse(
+        "several models are for --compare; an output that is there already is named by -o");
   if (options.color && !options.output.given())
     return refuse("--color-strips does nothing without -o");
   if (options.join && !options.output.given()) return refuse("--join does nothing without -o");
@@ -262,7 +271,7 @@ Command add_stripify(CLI::App& root) {
     names += (names.empty() ? "" : ", ") + std::string(stripifier.name);
   app->add_option("files", options->inputs,
                   "Model, points, tetrahedra (MEDIT) or progressive file, - for standard input; "
-                  "several with --compare")
+                  "several with --compare; a second that is not there is the output")
       ->required();
   options->output.add_named_to(*app,
                                "File for the triangles in strip order, which glTF holds as strips; "
@@ -282,7 +291,10 @@ Command add_stripify(CLI::App& root) {
   options->stripping.add_to(*app);
   options->format.add_to(*app, {"text", "json", "csv", "md"});
   options->limits.add_to(*app);
-  return {app, [options](Streams io) { return run(*options, io); }};
+  return {app, [options](Streams io) {
+            options->take_output();
+            return run(*options, io);
+          }};
 }
 
 }  // namespace pstrips::cli

@@ -4,23 +4,13 @@
 #include <cmath>
 #include <vector>
 
+#include "core/matrix4.h"
 #include "core/mesh.h"
 
 namespace pstrips::inline converters {
 namespace {
 
-using Matrix = std::array<double, 16>;  // column-major, as Node::matrix
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix out{};
-  for (std::size_t column = 0; column < 4; ++column)
-    for (std::size_t row = 0; row < 4; ++row)
-      for (std::size_t k = 0; k < 4; ++k)
-        out[4 * column + row] += a[4 * k + row] * b[4 * column + k];
-  return out;
-}
-
-std::array<double, 3> moved(const Matrix& m, const std::array<double, 3>& p) {
+std::array<double, 3> moved(const Matrix4& m, const std::array<double, 3>& p) {
   std::array<double, 3> out{};
   for (std::size_t row = 0; row < 3; ++row)
     out[row] = m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row];
@@ -35,7 +25,7 @@ BoundingBox box_of(const Mesh& mesh) {
   return out;
 }
 
-void add_corners(const BoundingBox& box, const Matrix& matrix, BoundingBox& out) {
+void add_corners(const BoundingBox& box, const Matrix4& matrix, BoundingBox& out) {
   if (box.is_empty()) return;
   for (unsigned corner = 0; corner < 8; ++corner) {
     std::array<double, 3> point{};
@@ -63,7 +53,7 @@ BoundingBox bounding_box(const Model& model) {
   std::vector<BoundingBox> boxes;
   for (const Mesh& mesh : model.meshes) boxes.push_back(box_of(mesh));
   std::vector<bool> is_placed(boxes.size());
-  std::vector<Matrix> world;  // of each node
+  std::vector<Matrix4> world;  // of each node
   BoundingBox out;
   for (const Node& node : model.scene.nodes) {
     world.push_back(node.parent < world.size() ? product(world[node.parent], node.matrix)

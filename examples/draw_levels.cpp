@@ -209,9 +209,18 @@ std::vector<unsigned char> Picture::png() const {
 class Viewer {
  public:
   void draw(const pstrips::StreamDecoder& decoder) {
+    if (drawn_ == 0 || decoder.totals().triangles >= 4 * drawn_) draw_panel(decoder);
+  }
+  void draw_last(const pstrips::StreamDecoder& decoder) {
+    if (decoder.changes() != drawn_changes_) draw_panel(decoder);
+  }
+  const Picture& picture() const { return picture_; }
+
+ private:
+  void draw_panel(const pstrips::StreamDecoder& decoder) {
     const pstrips::StreamDecoder::Totals totals = decoder.totals();
-    if (drawn_ > 0 && totals.triangles < 4 * drawn_ && !decoder.complete()) return;
     drawn_ = totals.triangles;
+    drawn_changes_ = decoder.changes();
     std::vector<Triangle> triangles;
     for (Index i = 0; i < decoder.strips().meshes.size(); ++i)
       append_triangles(decoder.mesh(i), triangles);
@@ -220,10 +229,9 @@ class Viewer {
                 static_cast<unsigned long long>(decoder.bytes_taken()), triangles.size(),
                 static_cast<unsigned long long>(totals.strips), totals.error);
   }
-  const Picture& picture() const { return picture_; }
 
- private:
   std::uint64_t drawn_ = 0;
+  std::size_t drawn_changes_ = 0;
   Picture picture_;
 };
 
@@ -241,6 +249,7 @@ int draw_levels(std::FILE* file, std::FILE* out) {
     if (decoder.update()) viewer.draw(decoder);
   }
   if (const auto error = decoder.end()) return report(*error);
+  viewer.draw_last(decoder);
   const std::vector<unsigned char> png = viewer.picture().png();
   return std::fwrite(png.data(), 1, png.size(), out) == png.size() ? 0 : 1;
 }

@@ -273,6 +273,7 @@ class ObjAsOthersReadIt(AppearanceTest):
             self.write("m.obj", text)
             run = self.run_program("convert", "--force", "m.obj", "out.glb")
             self.assertEqual(run.err.count(said), 1, run)
+            self.assertEqual(self.run_program("inspect", "m.obj").err.count(said), 1)
             self.assertEqual(len(Glb(self.read("out.glb")).floats("POSITION")), 3)
 
     def test_names_that_end_in_a_backslash(self):

@@ -104,7 +104,7 @@ CASES = [
     (["stripify", "tube.obj", "--algorithm", "none"], 1, "", "--algorithm"),
     (["stripify", "tube.obj", "--algorithm", "best,sgi-strips"], 1, "", "--compare"),
     (["stripify", "tube.obj", "--algorithm", "none", "--compare"], 1, "", "there is no none"),
-    (["stripify", "tube.obj", "sheets.ply"], 1, "", "several models are for --compare; the output is named by -o"),
+    (["stripify", "tube.obj", "sheets.ply"], 1, "", "several models are for --compare; an output that is there already is named by -o"),
     (["stripify", "tube.obj", "--compare", "-o", "out.ply"], 1, "", "--output does nothing with --compare"),
     (["stripify", "tube.obj", "--format", "csv"], 1, "", "--compare"),
     (["stripify", "tube.obj", "--time-limit", "-1"], 1, "", "--time-limit"),

@@ -175,6 +175,12 @@ class Output(ProgramTest):
         self.run_program("stripify", "one.ply", "two.ply", code=1)
         self.assertEqual(self.read("two.ply"), before)
 
+    def test_stripify_takes_an_output_that_is_not_there_yet(self):
+        self.run_program("stripify", "tube.obj", "strips.glb")
+        before = self.read("strips.glb")
+        self.run_program("stripify", "tube.obj", "strips.glb", code=1)
+        self.assertEqual(self.read("strips.glb"), before)
+
     def test_companions_that_were_not_named_stay(self):
         for target, companion in (("out.gltf", "out.bin"), ("out.obj", "out.mtl")):
             self.write(companion, "mine")
