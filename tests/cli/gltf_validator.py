@@ -15,9 +15,13 @@ validator.validateBytes(new Uint8Array(fs.readFileSync(file)), { externalResourc
 """
 
 
+def is_installed():
+    return FOLDER.is_dir()
+
+
 def complaints(path):
     """Errors and warnings as "CODE pointer"; nothing where there is no validator."""
-    if not FOLDER.is_dir():
+    if not is_installed():
         return []
     done = subprocess.run(["node", "-e", SCRIPT, str(FOLDER), str(path)], capture_output=True, timeout=60, check=True)
     return [f"{m['code']} {m.get('pointer', '')}" for m in json.loads(done.stdout) if m["severity"] <= 1]

@@ -6,13 +6,19 @@ import struct
 import unittest
 
 from assets import U8, U16, Asset, glb_parts, glb_rows, obj_rows
-from gltf_validator import complaints
+from gltf_validator import complaints, is_installed
 from support import ProgramTest
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 
 class GltfValues(ProgramTest):
+    def test_the_validator_looks_on(self):
+        if not is_installed():
+            self.skipTest("gltf-validator is not installed; web/build does that")
+        self.write("broken.gltf", '{"asset": {}}')
+        self.assertNotEqual(complaints(self.folder / "broken.gltf"), [])
+
     def glb_of(self, name, content, *options):
         """The attributes of the first primitive by name, as rows."""
         self.write(name, content)
