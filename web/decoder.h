@@ -76,11 +76,12 @@ const std::byte* pstrips_attribute(const PstripsViewer* viewer, std::uint32_t me
 /// All of the file but geometry, once there is a base, as little-endian words; strings are a u32
 /// length and that many bytes, lists a u32 length and that many elements:
 ///
-///     u32 profile, packets; list of materials: string name, f64[4] base colour, f64[3] emissive,
-///     f64 metallic, f64 roughness, u32 image, u32 double-sided; list of images: string name, uri,
-///     media type; list of nodes: string name, u32 parent, f64[16] matrix, list of u32 meshes; list
-///     of meshes: string name, u32 vertices, wedges, triangles; list of groups: string name, u32
-///     material, u32 kind; list of attributes: string semantic, u32 type, count, normalized
+///     u32 profile, packets, texture origin; list of materials: string name, f64[4] base colour,
+///     f64[3] emissive, f64 metallic, f64 roughness, f64 alpha cutoff, u32 alpha mode, u32 image of
+///     the base colour, u32 double-sided; list of images: string name, uri, media type; list of
+///     nodes: string name, u32 parent, f64[16] matrix, list of u32 meshes; list of meshes: string
+///     name, u32 vertices, wedges, triangles; list of groups: string name, u32 material, u32 kind;
+///     list of attributes: string semantic, u32 type, count, normalized
 PSTRIPS_EXPORT(pstrips_scene) const std::byte* pstrips_scene(PstripsViewer* viewer);
 /// The encoded file of an image; 0 bytes until it is there.
 PSTRIPS_EXPORT(pstrips_image)
