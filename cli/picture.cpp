@@ -123,9 +123,12 @@ Result<RgbaImage> draw(const Model& model, const Model& box_of, const View& view
                        const Limits& limits) {
   const auto shown = placed(model, limits);
   if (!shown) return tl::unexpected(shown.error());
-  const auto whole = placed(box_of, limits);
-  if (!whole) return tl::unexpected(whole.error());
-  const Sphere sphere = sphere_around(*whole);
+  Sphere sphere = sphere_around(*shown);
+  if (&box_of != &model) {
+    const auto whole = placed(box_of, limits);
+    if (!whole) return tl::unexpected(whole.error());
+    sphere = sphere_around(*whole);
+  }
   const Textures textures(shown->scene, view.size, limits);
   const RenderMesh triangles = triangles_of(*shown, textures);
   if (triangles.triangle_count() == 0 || !(sphere.radius > 0) || !std::isfinite(sphere.radius))

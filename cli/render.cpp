@@ -36,10 +36,13 @@ Result<RgbaImage> picture_of(const Options& options) {
   const ProgressiveStrips& strips = std::get<ProgressiveStrips>(file->content);
   const auto choice = options.level.choice(strips);
   if (!choice) return tl::unexpected(choice.error());
-  const auto level = decode(strips, packets_for(strips, *choice));
-  if (!level) return tl::unexpected(level.error());
   const auto full = decode(strips);
   if (!full) return tl::unexpected(full.error());
+  const std::size_t packets = packets_for(strips, *choice);
+  if (packets == strips.packets.size())
+    return draw(*full, *full, options.view, options.limits.limits);
+  const auto level = decode(strips, packets);
+  if (!level) return tl::unexpected(level.error());
   return draw(*level, *full, options.view, options.limits.limits);
 }
 
